@@ -1,0 +1,27 @@
+//! manylight replays deterministic recordings of many-light scenes and measures, stage by stage and
+//! exactly, how clustered light shading works: which lights reach which fragments, at what cost.
+//!
+//! ```text
+//! recording ──> FrameInput (views, rain) ──┐
+//! scene ────────────────────────────────────┤
+//! config ─> method plan (pure, CPU, f64) ──┴─> frame ─> passes ─> GPU results ─> measure ─> output
+//! ```
+//!
+//! Nothing flows back: scene and recording know no Vulkan, the maths in [`geometry`] knows neither files
+//! nor GPU, [`output`] knows no passes. Start reading at `frame`.
+
+pub mod cli;
+pub mod config;
+pub mod cpu;
+pub mod error;
+pub mod geometry;
+pub mod lights;
+pub mod measure;
+pub mod methods;
+pub mod output;
+pub mod rain;
+pub mod recording;
+pub mod scene;
+pub mod views;
+
+pub use error::{Error, Result};

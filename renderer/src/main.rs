@@ -1,0 +1,3 @@
+//! The `manylight` program.
+
+fn main() {}

@@ -1,0 +1,105 @@
+//! The records that passes produce and [`crate::output`] writes.
+
+use half::f16;
+
+/// One visible cluster, read back in an atemporal run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ClusterRecord {
+    /// Linear index ix + Dx*(iy + Dy*iz).
+    pub index: u32,
+    /// Fragments (samples) marked in it.
+    pub fragments: u32,
+    /// Length of its light list.
+    pub lights: u32,
+}
+
+/// Counters of one clustering in one frame.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct ClusteringCounts {
+    /// Grid dimensions Dx, Dy, Dz.
+    pub dimensions: [u32; 3],
+    /// Clusters with at least one visible fragment.
+    pub visible_clusters: u64,
+    /// Sum of the lengths of the light lists.
+    pub light_indices: u64,
+    /// Sphere against cluster tests evaluated.
+    pub intersection_tests: u64,
+    /// Entries that did not fit; always 0 after the buffers have grown.
+    pub light_indices_dropped: u64,
+    /// Clusters that did not fit; always 0 after the buffers have grown.
+    pub visible_clusters_dropped: u64,
+    /// FNV-1a hash over offsets, lengths and entries of all lists, in order.
+    pub lists_hash: u64,
+    /// Visible clusters by ascending index.
+    pub clusters: Vec<ClusterRecord>,
+}
+
+/// Counters of one frame: the atemporal run's record.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct FrameCounts {
+    /// Frame number in the recording.
+    pub frame: u32,
+    /// Frame number times the recording's time step, seconds.
+    pub time_s: f64,
+    /// Rendering cameras.
+    pub views: u32,
+    /// One entry a clustering: a view each for Indi, one for Encl, none for all-lights.
+    pub clusterings: Vec<ClusteringCounts>,
+    /// Evaluations of one light for one fragment.
+    pub lighting_computations: u64,
+    /// Those closer than R1.
+    pub needed_computations: u64,
+    /// Fragment shader invocations that shaded.
+    pub fragments_shaded: u64,
+    /// Fragments whose cluster was not marked visible; always 0.
+    pub fragments_without_cluster: u64,
+    /// Per clustering (views for all-lights): (lights, fragments) for every bin with fragments, ascending.
+    pub lights_per_fragment: Vec<Vec<(u32, u64)>>,
+}
+
+/// Time of one stage.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StageTime {
+    /// Path in the stage tree, such as `frame/cluster[0]/count_lights`.
+    pub stage: String,
+    /// GPU time, milliseconds.
+    pub gpu_ms: f64,
+    /// CPU time spent recording it, milliseconds.
+    pub cpu_ms: f64,
+}
+
+/// All stages of one frame of one temporal run, parents before children, in execution order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrameTimes {
+    /// Temporal run, from 0.
+    pub run: u32,
+    /// Frame number in the recording.
+    pub frame: u32,
+    /// Stages in execution order.
+    pub stages: Vec<StageTime>,
+}
+
+/// Everything known of each pixel of one view, row-major from the top left.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ViewPixels {
+    /// `mono`, `left`, `right` or `view2`...
+    pub name: String,
+    /// Pixels.
+    pub width: u32,
+    /// Pixels.
+    pub height: u32,
+    /// Linear HDR colour and coverage.
+    pub color: Vec<[f16; 4]>,
+    /// Distance along the view's -Z, metres; infinity where nothing was hit.
+    pub depth: Vec<f32>,
+    /// Length of the list of the pixel's cluster; 0 where nothing was hit.
+    pub light_count: Vec<u32>,
+    /// Fragments in the pixel's cluster; 0 where nothing was hit.
+    pub fragment_count: Vec<u32>,
+    /// Linear cluster index; `u32::MAX` where nothing was hit.
+    pub cluster_index: Vec<u32>,
+    /// World from view, column-major.
+    pub world_from_view: glam::DMat4,
+    /// Clip from view (reversed depth), column-major.
+    pub clip_from_view: glam::DMat4,
+}

@@ -1,0 +1,223 @@
+//! Scenes as data: vertices, instances, materials, images and lights, with no word of Vulkan.
+//!
+//! Units are metres, right-handed, +Y up, counter-clockwise front faces. Every loader ([`gltf`], [`obj`])
+//! and generator ([`procedural`]) ends in one [`Scene`].
+
+pub mod gltf;
+pub mod obj;
+pub mod procedural;
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DVec3, Mat4, Vec3};
+
+/// One vertex, as the GPU reads it (60 bytes, scalar layout).
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct Vertex {
+    /// Object-space position, metres.
+    pub position: [f32; 3],
+    /// Object-space unit normal.
+    pub normal: [f32; 3],
+    /// Object-space unit tangent and, in w, the sign of the bitangent (glTF convention).
+    pub tangent: [f32; 4],
+    /// Two texture coordinate sets; [`TextureRef::uv_slot`] picks one.
+    pub uv: [[f32; 2]; 2],
+    /// Linear vertex colour and alpha, 8-bit unorm.
+    pub color: [u8; 4],
+}
+
+/// Axis-aligned bounds, metres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    /// Lowest corner.
+    pub min: Vec3,
+    /// Highest corner.
+    pub max: Vec3,
+}
+
+/// A range of indices drawn with one material.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Primitive {
+    /// First of its indices in [`Scene::indices`].
+    pub first_index: u32,
+    /// How many indices; triangles, so a multiple of three.
+    pub index_count: u32,
+    /// Added to every index.
+    pub vertex_offset: u32,
+    /// How many vertices it owns from `vertex_offset` on.
+    pub vertex_count: u32,
+    /// Into [`Scene::materials`].
+    pub material: u32,
+    /// Object-space bounds.
+    pub bounds: Bounds,
+}
+
+/// A primitive placed in the world.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Instance {
+    /// Into [`Scene::primitives`].
+    pub primitive: u32,
+    /// Affine transform; may mirror (negative determinant).
+    pub world_from_object: Mat4,
+}
+
+/// What a material's alpha means (glTF 2.0, section 3.9.4).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum AlphaMode {
+    /// Alpha is ignored.
+    Opaque,
+    /// A fragment below the cut-off is discarded.
+    Mask,
+    /// Blended over what lies behind.
+    Blend,
+}
+
+/// Which of a material's five textures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TextureSlot {
+    /// sRGB colour times alpha.
+    BaseColor = 0,
+    /// Linear: roughness in G, metalness in B.
+    MetallicRoughness = 1,
+    /// Linear: tangent-space normal.
+    Normal = 2,
+    /// Linear: occlusion in R.
+    Occlusion = 3,
+    /// sRGB radiance.
+    Emissive = 4,
+}
+
+/// Metallic-roughness material (glTF 2.0, section 3.9).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    /// Name in the source, for messages and debug labels.
+    pub name: String,
+    /// Linear colour and alpha.
+    pub base_color: [f32; 4],
+    /// 0 dielectric to 1 metal.
+    pub metallic: f32,
+    /// Perceptual roughness, 0 to 1.
+    pub roughness: f32,
+    /// Linear radiance, emissive strength multiplied in.
+    pub emissive: [f32; 3],
+    /// Scale of the normal map's x and y.
+    pub normal_scale: f32,
+    /// 0 no occlusion to 1 full.
+    pub occlusion_strength: f32,
+    /// Opaque, masked or blended.
+    pub alpha_mode: AlphaMode,
+    /// Below this alpha a masked fragment is discarded.
+    pub alpha_cutoff: f32,
+    /// Drawn without back-face culling, with the normal turned to the viewer.
+    pub double_sided: bool,
+    /// By [`TextureSlot`].
+    pub textures: [Option<TextureRef>; 5],
+}
+
+/// A texture as a material uses it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TextureRef {
+    /// Into [`Scene::images`].
+    pub image: u32,
+    /// Filter and wrap modes.
+    pub sampler: Sampler,
+    /// Which of [`Vertex::uv`], 0 or 1.
+    pub uv_slot: u32,
+    /// Rows of the affine map applied to the coordinates: u' = row0 . (u, v, 1), v' = row1 . (u, v, 1).
+    pub uv_transform: [[f32; 3]; 2],
+}
+
+/// Filter and wrap modes of one texture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Sampler {
+    /// Horizontal and vertical.
+    pub wrap: [Wrap; 2],
+    /// Nearest instead of (anisotropic, mip-mapped) linear filtering.
+    pub nearest: bool,
+}
+
+/// What lies outside 0..1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Wrap {
+    /// Tiles.
+    Repeat,
+    /// Tiles, every other one mirrored.
+    Mirror,
+    /// The edge goes on.
+    Clamp,
+}
+
+/// A decoded image with its whole mip chain, RGBA 8-bit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Image {
+    /// File name or name in the source.
+    pub name: String,
+    /// Texels.
+    pub width: u32,
+    /// Texels.
+    pub height: u32,
+    /// RGB is sRGB-encoded (else linear); alpha is always linear. Mips are averaged in linear light.
+    pub srgb: bool,
+    /// `mips[0]` is the full image, each next one half (rounded down, at least 1) down to 1x1; row-major RGBA.
+    pub mips: Vec<Vec<u8>>,
+}
+
+/// A point light that a scene brings along (KHR_lights_punctual).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SceneLight {
+    /// World position, metres.
+    pub position: Vec3,
+    /// Linear colour, as in the file.
+    pub color: [f32; 3],
+    /// Luminous intensity as in the file (candela).
+    pub intensity: f32,
+    /// The file's cut-off distance, if any.
+    pub range: Option<f32>,
+}
+
+/// Everything that can be drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// Built-in name or file stem.
+    pub name: String,
+    /// Hex SHA-256 over the source bytes (all files read, in order), or over generator name and version.
+    pub sha256: String,
+    /// All primitives' vertices.
+    pub vertices: Vec<Vertex>,
+    /// All primitives' indices, relative to [`Primitive::vertex_offset`].
+    pub indices: Vec<u32>,
+    /// Index ranges with a material each.
+    pub primitives: Vec<Primitive>,
+    /// What is drawn, in source order.
+    pub instances: Vec<Instance>,
+    /// At least one (a default is made where the source has none).
+    pub materials: Vec<Material>,
+    /// Decoded images; one used both as colour and as data appears twice.
+    pub images: Vec<Image>,
+    /// Point lights of the source.
+    pub lights: Vec<SceneLight>,
+}
+
+impl Scene {
+    /// Triangles drawn, instances counted each time.
+    pub fn triangle_count(&self) -> u64 {
+        self.instances.iter().map(|i| u64::from(self.primitives[i.primitive as usize].index_count) / 3).sum()
+    }
+
+    /// World-space bounds of all instances; `None` for an empty scene.
+    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        self.instances
+            .iter()
+            .flat_map(|instance| {
+                let bounds = self.primitives[instance.primitive as usize].bounds;
+                (0..8).map(move |corner| {
+                    let pick = |bit: u32, axis: usize| {
+                        if corner >> bit & 1 == 0 { bounds.min[axis] } else { bounds.max[axis] }
+                    };
+                    let object = Vec3::new(pick(0, 0), pick(1, 1), pick(2, 2));
+                    instance.world_from_object.transform_point3(object).as_dvec3()
+                })
+            })
+            .fold(None, |all, p| Some(all.map_or((p, p), |(lo, hi): (DVec3, DVec3)| (lo.min(p), hi.max(p)))))
+    }
+}
