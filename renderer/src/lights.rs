@@ -1,7 +1,18 @@
 //! Point lights of one frame, wherever they come from: rain, a CSV file, the scene.
 
+mod attenuation;
+mod csv_file;
+
+pub use attenuation::Attenuation;
+pub use csv_file::load_csv;
+
+use crate::rain::Rain;
+use crate::scene::SceneLight;
+use crate::{Error, Result};
+use serde::Serialize;
+
 /// A point light. Its influence ends at `r1` (METHODS of attenuation: Gelderen appendix A).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PointLight {
     /// World position, metres.
     pub position: [f32; 3],
@@ -17,25 +28,160 @@ pub struct PointLight {
     pub r1: f32,
 }
 
-/// How a light fades with distance (Gelderen appendix A, table of METHODS); names as there.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Attenuation {
-    /// I/d^2 for d < R1.
-    Phy,
-    /// I/d^2 - I0.
-    Red,
-    /// I/d^2 + 2*I0*d/R1 - 3*I0.
-    Smo,
-    /// I/d^2 - I0*d/R1.
-    PhyRed1,
-    /// I/d^2 - I0*d^2/R1^2: the default (Gelderen equation 5.1).
-    PhyRed2,
-    /// I/d^2 + 2*I0*d^2/R1^2 - 3*I0*d/R1.
-    PhySmo1,
-    /// I/d^2 + 2*I0*d^3/R1^3 - 3*I0*d^2/R1^2.
-    PhySmo2,
-    /// I*(R1-d)/R1.
-    Lin,
-    /// 4*I/R1^2 for d < R1.
-    Stp,
+impl PointLight {
+    /// A light whose influence ends at R1 = sqrt(I/I0), where I/d^2 falls to I0 (Gelderen appendix A).
+    pub fn new(position: [f32; 3], tint: [f32; 3], intensity: f32, cutoff: f32, r0: f32) -> Self {
+        Self { position, tint, intensity, cutoff, r0, r1: (intensity / cutoff).sqrt() }
+    }
+
+    /// Finds the first value that no light can have: its column in a lights file, and what it must be.
+    pub(crate) fn check(&self) -> Result<(), (&'static str, String)> {
+        for (column, value) in ["x", "y", "z"].into_iter().zip(self.position) {
+            require(value.is_finite(), column, value, "a coordinate in metres")?;
+        }
+        for (column, value) in ["r", "g", "b"].into_iter().zip(self.tint) {
+            require(value.is_finite() && value >= 0.0, column, value, "a tint, 0 or above")?;
+        }
+        let positive = |value: f32| value.is_finite() && value > 0.0;
+        require(positive(self.intensity), "i", self.intensity, "an intensity above 0")?;
+        require(positive(self.cutoff), "i0", self.cutoff, "a cut-off above 0")?;
+        require(positive(self.r1), "r1", self.r1, "a radius above 0, in metres")?;
+        let below = format!("a near radius above 0 and below the influence radius {}", self.r1);
+        require(self.r0 > 0.0 && self.r0 < self.r1, "r0", self.r0, &below)
+    }
+}
+
+fn require(
+    holds: bool,
+    column: &'static str,
+    value: f32,
+    wanted: &str,
+) -> Result<(), (&'static str, String)> {
+    if holds { Ok(()) } else { Err((column, format!("{value} is not {wanted}"))) }
+}
+
+/// Where a replay's lights come from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum LightSource {
+    /// Falling lights, another list every frame.
+    Rain(Rain),
+    /// The same list in every frame.
+    Static(Vec<PointLight>),
+}
+
+impl LightSource {
+    /// The lights of `frame`; light k keeps its place from frame to frame.
+    pub fn at_frame(&mut self, frame: u32) -> &[PointLight] {
+        match self {
+            Self::Rain(rain) => {
+                rain.advance_to(frame);
+                rain.lights()
+            }
+            Self::Static(lights) => lights,
+        }
+    }
+}
+
+/// The point lights that a scene brings along (KHR_lights_punctual), with cut-off I0 and near radius R0 (metres).
+///
+/// The file's luminous intensity is taken as I as it stands, for both mean E = I/d^2 at distance d; its colour is
+/// the tint. R1 = min(sqrt(I/I0), range): where the range is the shorter one, the light's cut-off is raised to
+/// I/range^2, so that the light still fades to nothing at R1. R0 is at most R1/2. Lights of no intensity are
+/// left out.
+///
+/// # Errors
+/// [`Error::Input`] where the cut-off or R0 is no number above 0, a light has a value that is no light's, or
+/// no light is left.
+pub fn from_scene(lights: &[SceneLight], cutoff: f32, r0: f32) -> Result<Vec<PointLight>> {
+    for (name, value) in [("cut-off I0", cutoff), ("near radius R0", r0)] {
+        if !(value.is_finite() && value > 0.0) {
+            return Err(Error::input(format!("scene lights: a {name} of {value} is not above 0")));
+        }
+    }
+    let lit = lights.iter().enumerate().filter(|(_, light)| light.intensity != 0.0);
+    let found = lit
+        .map(|(index, light)| {
+            let light = from_scene_light(light, cutoff, r0);
+            light.check().map_err(|(field, message)| {
+                Error::input(format!("scene light {index}: {field}: {message}"))
+            })?;
+            Ok(light)
+        })
+        .collect::<Result<Vec<_>>>()?;
+    if found.is_empty() {
+        return Err(Error::input(
+            "the scene has no point lights (KHR_lights_punctual); use rain or a lights file",
+        ));
+    }
+    Ok(found)
+}
+
+fn from_scene_light(light: &SceneLight, cutoff: f32, r0: f32) -> PointLight {
+    let unbounded = (light.intensity / cutoff).sqrt();
+    let (cutoff, r1) = match light.range {
+        Some(range) if range < unbounded => (light.intensity / (range * range), range),
+        _ => (cutoff, unbounded),
+    };
+    PointLight {
+        position: light.position.to_array(),
+        tint: light.color,
+        intensity: light.intensity,
+        cutoff,
+        r0: r0.min(0.5 * r1),
+        r1,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::Lighting;
+    use crate::rain::RainParameters;
+    use glam::Vec3;
+
+    fn scene_light(intensity: f32, range: Option<f32>) -> SceneLight {
+        SceneLight { position: Vec3::new(1.0, 2.0, 3.0), color: [1.0, 0.5, 0.25], intensity, range }
+    }
+
+    #[test]
+    fn scene_lights_end_at_the_cutoff_or_at_their_range() {
+        let lights = [
+            scene_light(8.0, None),
+            scene_light(0.0, None),
+            scene_light(8.0, Some(2.0)),
+            scene_light(8.0, Some(9.0)),
+            scene_light(8.0, Some(0.1)),
+        ];
+        let found = from_scene(&lights, 0.5, 0.1).unwrap();
+        let radii: Vec<_> = found.iter().map(|l| (l.cutoff, l.r0, l.r1)).collect();
+        assert_eq!(radii[..3], [(0.5, 0.1, 4.0), (2.0, 0.1, 2.0), (0.5, 0.1, 4.0)]);
+        assert_eq!((radii[3].1, radii[3].2), (0.05, 0.1));
+        assert_eq!(found[0].position, [1.0, 2.0, 3.0]);
+        assert_eq!(found[0].tint, [1.0, 0.5, 0.25]);
+        assert_eq!(found[0].intensity, 8.0);
+    }
+
+    #[test]
+    fn scene_lights_that_cannot_be_are_refused() {
+        let message = |lights: &[SceneLight]| from_scene(lights, 0.5, 0.1).unwrap_err().to_string();
+        assert!(message(&[]).contains("no point lights"));
+        assert!(message(&[scene_light(0.0, None)]).contains("no point lights"));
+        assert!(message(&[scene_light(-1.0, None)]).starts_with("scene light 0: i: -1"));
+        assert!(message(&[scene_light(1.0, None), scene_light(f32::NAN, None)]).starts_with("scene light 1"));
+        assert!(message(&[scene_light(1.0, Some(0.0))]).starts_with("scene light 0"));
+        assert!(from_scene(&[scene_light(1.0, None)], 0.0, 0.1).is_err());
+        assert!(from_scene(&[scene_light(1.0, None)], 0.5, f32::NAN).is_err());
+    }
+
+    #[test]
+    fn a_source_gives_the_lights_of_any_frame() {
+        let lighting = Lighting { count: 10, intensity: 20.0, cutoff: 0.5, r0: 0.1 };
+        let at = |frame| Rain::new(&RainParameters::default(), &lighting, 1.0 / 90.0, frame).unwrap();
+        let mut source = LightSource::Rain(at(0));
+        for frame in [7, 3, 3, 40] {
+            assert_eq!(source.at_frame(frame), at(frame).lights());
+        }
+        let lights = at(5).lights().to_vec();
+        assert_eq!(LightSource::Static(lights.clone()).at_frame(9), lights);
+    }
 }

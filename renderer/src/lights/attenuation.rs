@@ -1,0 +1,131 @@
+//! How a light fades with distance.
+
+use crate::{Error, Result};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::fmt;
+use std::str::FromStr;
+
+/// How a light fades with distance (Gelderen appendix A, table of METHODS); names as there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(into = "&'static str", try_from = "Cow<'_, str>")]
+pub enum Attenuation {
+    /// I/d^2 for d < R1.
+    Phy,
+    /// I/d^2 - I0.
+    Red,
+    /// I/d^2 + 2*I0*d/R1 - 3*I0.
+    Smo,
+    /// I/d^2 - I0*d/R1.
+    PhyRed1,
+    /// I/d^2 - I0*d^2/R1^2: the default (Gelderen equation 5.1).
+    #[default]
+    PhyRed2,
+    /// I/d^2 + 2*I0*d^2/R1^2 - 3*I0*d/R1.
+    PhySmo1,
+    /// I/d^2 + 2*I0*d^3/R1^3 - 3*I0*d^2/R1^2.
+    PhySmo2,
+    /// I*(R1-d)/R1.
+    Lin,
+    /// 4*I/R1^2 for d < R1.
+    Stp,
+}
+
+impl Attenuation {
+    /// Every function, in the order of Gelderen's appendix A.
+    pub const ALL: [Self; 9] = [
+        Self::Phy,
+        Self::Red,
+        Self::Smo,
+        Self::PhyRed1,
+        Self::PhyRed2,
+        Self::PhySmo1,
+        Self::PhySmo2,
+        Self::Lin,
+        Self::Stp,
+    ];
+
+    /// The name that configs, the command line and shaders use.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Phy => "phy",
+            Self::Red => "red",
+            Self::Smo => "smo",
+            Self::PhyRed1 => "phy_red_1",
+            Self::PhyRed2 => "phy_red_2",
+            Self::PhySmo1 => "phy_smo_1",
+            Self::PhySmo2 => "phy_smo_2",
+            Self::Lin => "lin",
+            Self::Stp => "stp",
+        }
+    }
+}
+
+impl fmt::Display for Attenuation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for Attenuation {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Self> {
+        Self::ALL.into_iter().find(|attenuation| attenuation.name() == name).ok_or_else(|| {
+            let names = Self::ALL.map(Self::name).join(", ");
+            Error::input(format!("`{name}` is no attenuation; choose one of {names}"))
+        })
+    }
+}
+
+impl From<Attenuation> for &'static str {
+    fn from(attenuation: Attenuation) -> Self {
+        attenuation.name()
+    }
+}
+
+impl TryFrom<Cow<'_, str>> for Attenuation {
+    type Error = Error;
+
+    fn try_from(name: Cow<'_, str>) -> Result<Self> {
+        name.parse()
+    }
+}
+
+impl JsonSchema for Attenuation {
+    fn schema_name() -> Cow<'static, str> {
+        "Attenuation".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "type": "string",
+            "enum": Self::ALL.map(Self::name),
+            "description": "How a light fades with distance"
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_read_back() {
+        for attenuation in Attenuation::ALL {
+            assert_eq!(attenuation.to_string().parse::<Attenuation>().unwrap(), attenuation);
+            let json = serde_json::to_string(&attenuation).unwrap();
+            assert_eq!(json, format!("\"{attenuation}\""));
+            assert_eq!(serde_json::from_str::<Attenuation>(&json).unwrap(), attenuation);
+        }
+        assert_eq!(Attenuation::default().name(), "phy_red_2");
+    }
+
+    #[test]
+    fn an_unknown_name_is_answered_with_the_known_ones() {
+        let message = "phy_red".parse::<Attenuation>().unwrap_err().to_string();
+        assert!(message.contains("`phy_red`") && message.contains("phy_red_1, phy_red_2"), "{message}");
+        assert!(serde_json::from_str::<Attenuation>("\"PhyRed2\"").is_err());
+    }
+}

@@ -1,0 +1,143 @@
+//! Static lights from a CSV file.
+
+use super::PointLight;
+use crate::{Error, Result};
+use csv::{ReaderBuilder, StringRecord, Trim};
+use std::path::Path;
+
+/// Columns in the order of a [`PointLight`]'s values; the last one may be missing.
+const COLUMNS: [&str; 10] = ["x", "y", "z", "r", "g", "b", "i", "i0", "r0", "r1"];
+
+/// Reads lights from a CSV file with a header, one light a row: position `x,y,z` in metres, linear tint `r,g,b`,
+/// intensity `i`, cut-off `i0`, near radius `r0` and influence radius `r1` in metres, columns in any order.
+/// Where `r1` has no column or no value, it is sqrt(i/i0).
+///
+/// # Errors
+/// [`Error::File`] with line and column where the file cannot be read, has not these columns, holds no light, or
+/// a value is not what a light can have.
+pub fn load_csv(path: impl AsRef<Path>) -> Result<Vec<PointLight>> {
+    let path = path.as_ref();
+    let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+    read(&bytes).map_err(|message| Error::file(path, message))
+}
+
+fn read(bytes: &[u8]) -> Result<Vec<PointLight>, String> {
+    let mut reader = ReaderBuilder::new().trim(Trim::All).from_reader(bytes);
+    let places = places(reader.headers().map_err(|error| error.to_string())?)?;
+    let mut lights = Vec::new();
+    let mut record = StringRecord::new();
+    while reader.read_record(&mut record).map_err(|error| error.to_string())? {
+        let light = light(&record, &places).map_err(|(column, message)| {
+            format!("line {}, column {column}: {message}", record.position().map_or(0, |at| at.line()))
+        })?;
+        lights.push(light);
+    }
+    if lights.is_empty() {
+        return Err("holds no lights; give at least one row below the header".to_owned());
+    }
+    Ok(lights)
+}
+
+/// Where each of [`COLUMNS`] stands in a row.
+fn places(header: &StringRecord) -> Result<[Option<usize>; 10], String> {
+    let wanted = "x,y,z,r,g,b,i,i0,r0[,r1]";
+    let mut places = [None; 10];
+    for (place, name) in header.iter().enumerate() {
+        let Some(column) = COLUMNS.iter().position(|column| *column == name) else {
+            return Err(format!("line 1: no column is called `{name}`; the header must be {wanted}"));
+        };
+        if places[column].replace(place).is_some() {
+            return Err(format!("line 1: two columns are called `{name}`"));
+        }
+    }
+    match places[..9].iter().position(Option::is_none) {
+        Some(column) => {
+            Err(format!("line 1: column `{}` is missing; the header must be {wanted}", COLUMNS[column]))
+        }
+        None => Ok(places),
+    }
+}
+
+fn light(record: &StringRecord, places: &[Option<usize>; 10]) -> Result<PointLight, (&'static str, String)> {
+    let text = |column: usize| places[column].and_then(|place| record.get(place)).unwrap_or("");
+    let number = |column: usize| {
+        text(column)
+            .parse::<f32>()
+            .map_err(|_| (COLUMNS[column], format!("`{}` is not a number", text(column))))
+    };
+    let position = [number(0)?, number(1)?, number(2)?];
+    let tint = [number(3)?, number(4)?, number(5)?];
+    let mut light = PointLight::new(position, tint, number(6)?, number(7)?, number(8)?);
+    if !text(9).is_empty() {
+        light.r1 = number(9)?;
+    }
+    light.check()?;
+    Ok(light)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HEADER: &str = "x,y,z,r,g,b,i,i0,r0,r1\n";
+
+    fn refusal(row: &str) -> String {
+        read(format!("{HEADER}1,2,3,1,1,1,100,0.5,0.1,\n{row}\n").as_bytes()).unwrap_err()
+    }
+
+    #[test]
+    fn rows_become_lights() {
+        let text = format!("{HEADER}1, 2,-3.5,0.5,1,0,100,0.5,0.1,14\n4,5,6,1,1,1,8,0.5,0.25,\n");
+        let lights = read(text.as_bytes()).unwrap();
+        let first = PointLight {
+            position: [1.0, 2.0, -3.5],
+            tint: [0.5, 1.0, 0.0],
+            intensity: 100.0,
+            cutoff: 0.5,
+            r0: 0.1,
+            r1: 14.0,
+        };
+        assert_eq!(lights[0], first);
+        assert_eq!((lights[1].r0, lights[1].r1), (0.25, 4.0));
+    }
+
+    #[test]
+    fn r1_may_be_left_out_and_columns_may_change_places() {
+        let lights = read(b"r0,i0,i,b,g,r,z,y,x\n0.1,0.5,8,0.3,0.2,0.1,3,2,1\n").unwrap();
+        assert_eq!(lights[0].position, [1.0, 2.0, 3.0]);
+        assert_eq!(lights[0].tint, [0.1, 0.2, 0.3]);
+        assert_eq!(lights[0].r1, 4.0);
+    }
+
+    #[test]
+    fn a_value_that_no_light_has_is_named_with_line_and_column() {
+        for (row, start) in [
+            ("NaN,2,3,1,1,1,100,0.5,0.1,", "line 3, column x: NaN"),
+            ("1,2,inf,1,1,1,100,0.5,0.1,", "line 3, column z: inf"),
+            ("1,two,3,1,1,1,100,0.5,0.1,", "line 3, column y: `two`"),
+            ("1,2,3,1,-1,1,100,0.5,0.1,", "line 3, column g: -1"),
+            ("1,2,3,1,1,1,0,0.5,0.1,", "line 3, column i: 0"),
+            ("1,2,3,1,1,1,100,-0.5,0.1,", "line 3, column i0: -0.5"),
+            ("1,2,3,1,1,1,100,0.5,0,", "line 3, column r0: 0"),
+            ("1,2,3,1,1,1,100,0.5,15,", "line 3, column r0: 15"),
+            ("1,2,3,1,1,1,100,0.5,0.1,0", "line 3, column r1: 0"),
+            ("1,2,3,1,1,1,100,,0.1,", "line 3, column i0: ``"),
+        ] {
+            let message = refusal(row);
+            assert!(message.starts_with(start), "{row}: {message}");
+        }
+        assert!(refusal("1,2,3").contains("line: 3"), "{}", refusal("1,2,3"));
+    }
+
+    #[test]
+    fn files_without_header_or_lights_are_refused() {
+        assert!(read(b"").unwrap_err().contains("`x` is missing"));
+        assert!(read(b"1,2,3,1,1,1,100,0.5,0.1\n").unwrap_err().contains("called `1`"));
+        assert!(read(b"x,x,z,r,g,b,i,i0,r0\n").unwrap_err().contains("two columns"));
+        assert!(read(HEADER.as_bytes()).unwrap_err().contains("no lights"));
+        assert!(read(b"x,y,z,r,g,b,i,i0,r0\n\xff,2,3,1,1,1,1,1,0.1\n").is_err());
+        assert!(
+            load_csv("/nowhere/lights.csv").unwrap_err().to_string().starts_with("/nowhere/lights.csv: ")
+        );
+    }
+}
