@@ -15,6 +15,7 @@ pub mod config;
 pub mod cpu;
 pub mod error;
 pub mod geometry;
+pub mod gpu_types;
 pub mod lights;
 pub mod measure;
 pub mod methods;
@@ -23,5 +24,6 @@ pub mod rain;
 pub mod recording;
 pub mod scene;
 pub mod views;
+pub mod vk;
 
 pub use error::{Error, Result};

@@ -1,0 +1,1 @@
+//! Structs shared by host and shaders.

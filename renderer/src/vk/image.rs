@@ -1,0 +1,179 @@
+//! Two-dimensional images that free themselves.
+
+use super::context::Context;
+use super::vk_error;
+use crate::{Error, Result};
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
+use std::sync::Arc;
+
+/// What kind of image to make.
+#[derive(Debug, Clone, Copy)]
+pub struct ImageDesc {
+    /// Texels.
+    pub width: u32,
+    /// Texels.
+    pub height: u32,
+    /// Levels, at least 1.
+    pub mip_levels: u32,
+    /// Texel format.
+    pub format: vk::Format,
+    /// Samples a texel.
+    pub samples: vk::SampleCountFlags,
+    /// Everything it is used for.
+    pub usage: vk::ImageUsageFlags,
+    /// What its view shows.
+    pub aspect: vk::ImageAspectFlags,
+}
+
+impl Default for ImageDesc {
+    /// A colour image of one level and one sample; size, format and usage must be set.
+    fn default() -> Self {
+        Self {
+            width: 0,
+            height: 0,
+            mip_levels: 1,
+            format: vk::Format::UNDEFINED,
+            samples: vk::SampleCountFlags::TYPE_1,
+            usage: vk::ImageUsageFlags::empty(),
+            aspect: vk::ImageAspectFlags::COLOR,
+        }
+    }
+}
+
+/// A device-local image with its memory and a view of all its levels. Its layout starts as UNDEFINED.
+pub struct Image {
+    /// For commands.
+    pub handle: vk::Image,
+    /// All levels, of [`Image::aspect`].
+    pub view: vk::ImageView,
+    /// Texel format.
+    pub format: vk::Format,
+    /// Size of level 0, texels.
+    pub extent: vk::Extent2D,
+    /// Levels.
+    pub mip_levels: u32,
+    /// Samples a texel.
+    pub samples: vk::SampleCountFlags,
+    /// What the view shows.
+    pub aspect: vk::ImageAspectFlags,
+    allocation: Option<Allocation>,
+    context: Arc<Context>,
+}
+
+impl Image {
+    /// Makes the image and its view.
+    ///
+    /// # Errors
+    /// [`Error::Device`] when the size, format or sample count is over what the device has, or the memory is out.
+    pub fn new(context: &Arc<Context>, name: &str, desc: ImageDesc) -> Result<Self> {
+        check(context, name, &desc)?;
+        let ImageDesc { width, height, mip_levels, format, samples, usage, aspect } = desc;
+        let info = vk::ImageCreateInfo::default()
+            .image_type(vk::ImageType::TYPE_2D)
+            .format(format)
+            .extent(vk::Extent3D { width, height, depth: 1 })
+            .mip_levels(mip_levels)
+            .array_layers(1)
+            .samples(samples)
+            .usage(usage);
+        let handle = unsafe { context.device.create_image(&info, None) }
+            .map_err(|e| vk_error(&format!("{name}: making an image of {width}x{height} texels"), e))?;
+        context.name(handle, name);
+        let mut image = Self {
+            handle,
+            view: vk::ImageView::null(),
+            format,
+            extent: vk::Extent2D { width, height },
+            mip_levels,
+            samples,
+            aspect,
+            allocation: None,
+            context: context.clone(),
+        };
+        image.bind(name)?;
+        image.make_view(name)?;
+        Ok(image)
+    }
+
+    /// All levels, for barriers and views.
+    pub fn range(&self) -> vk::ImageSubresourceRange {
+        let range = vk::ImageSubresourceRange::default().aspect_mask(self.aspect);
+        range.level_count(self.mip_levels).layer_count(1)
+    }
+
+    fn bind(&mut self, name: &str) -> Result<()> {
+        let device = &self.context.device;
+        let allocation = self.context.allocate(&AllocationCreateDesc {
+            name,
+            requirements: unsafe { device.get_image_memory_requirements(self.handle) },
+            location: MemoryLocation::GpuOnly,
+            linear: false,
+            allocation_scheme: AllocationScheme::GpuAllocatorManaged,
+        })?;
+        let bound =
+            unsafe { device.bind_image_memory(self.handle, allocation.memory(), allocation.offset()) };
+        self.allocation = Some(allocation);
+        bound.map_err(|e| vk_error(&format!("{name}: binding memory"), e))
+    }
+
+    fn make_view(&mut self, name: &str) -> Result<()> {
+        let info = vk::ImageViewCreateInfo::default()
+            .image(self.handle)
+            .view_type(vk::ImageViewType::TYPE_2D)
+            .format(self.format)
+            .subresource_range(self.range());
+        self.view = unsafe { self.context.device.create_image_view(&info, None) }
+            .map_err(|e| vk_error(&format!("{name}: making an image view"), e))?;
+        self.context.name(self.view, name);
+        Ok(())
+    }
+}
+
+impl Drop for Image {
+    fn drop(&mut self) {
+        unsafe {
+            self.context.device.destroy_image_view(self.view, None);
+            self.context.device.destroy_image(self.handle, None);
+        }
+        if let Some(allocation) = self.allocation.take() {
+            self.context.free(allocation);
+        }
+    }
+}
+
+/// Asks the device about this very combination, beyond the general limits.
+fn check(context: &Context, name: &str, desc: &ImageDesc) -> Result<()> {
+    let ImageDesc { width, height, mip_levels, format, samples, usage, .. } = *desc;
+    let on = &context.info.name;
+    let side = context.limits.max_image_dimension_2d;
+    if !(1..=side).contains(&width) || !(1..=side).contains(&height) {
+        return Err(Error::Device(format!(
+            "{name}: {width}x{height} texels, each side must be 1 to {side} on {on}"
+        )));
+    }
+    let properties = context.image_format_properties(format, usage).map_err(|e| match e {
+        vk::Result::ERROR_FORMAT_NOT_SUPPORTED => {
+            Error::Device(format!("{name}: {on} has no {format:?} images used as {usage:?}"))
+        }
+        other => vk_error(&format!("{name}: asking for image limits"), other),
+    })?;
+    let vk::Extent3D { width: w, height: h, .. } = properties.max_extent;
+    if width > w || height > h {
+        return Err(Error::Device(format!(
+            "{name}: {width}x{height} texels of {format:?}, {on} has at most {w}x{h}"
+        )));
+    }
+    if !properties.sample_counts.contains(samples) {
+        let count = samples.as_raw();
+        return Err(Error::Device(format!(
+            "{name}: {on} has no {format:?} images of {count} samples a texel"
+        )));
+    }
+    if !(1..=properties.max_mip_levels).contains(&mip_levels) {
+        let most = properties.max_mip_levels;
+        return Err(Error::Device(format!("{name}: {mip_levels} mip levels, {on} has 1 to {most}")));
+    }
+    Ok(())
+}

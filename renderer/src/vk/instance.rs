@@ -1,0 +1,135 @@
+//! Loader and instance: the part of Vulkan before a device is chosen.
+
+use super::validation::{ValidationLog, messenger_info};
+use super::vk_error;
+use crate::{Error, Result};
+use ash::{ext, vk};
+use std::ffi::CStr;
+use std::sync::Arc;
+
+const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
+
+/// A Vulkan 1.3 instance with, where available, debug utils, and, where asked for, the validation layers.
+pub(super) struct Instance {
+    pub handle: ash::Instance,
+    pub debug_utils: bool,
+    pub log: Arc<ValidationLog>,
+    messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
+    /// Keeps the loader's library mapped; last, for fields drop in order.
+    _entry: ash::Entry,
+}
+
+impl Instance {
+    /// Loads the loader and makes the instance.
+    ///
+    /// # Errors
+    /// [`Error::Device`], naming the package to install, when the loader, a Vulkan 1.3 loader or the validation
+    /// layers are missing.
+    pub fn new(validate: bool) -> Result<Self> {
+        let entry = load()?;
+        let layers: &[*const std::ffi::c_char] = if validate { &[VALIDATION_LAYER.as_ptr()] } else { &[] };
+        if validate {
+            require_validation(&entry)?;
+        }
+        let debug_utils = has_extension(&entry, None, ext::debug_utils::NAME)?
+            || (validate && has_extension(&entry, Some(VALIDATION_LAYER), ext::debug_utils::NAME)?);
+        let mut extensions = Vec::new();
+        extensions.extend(debug_utils.then_some(ext::debug_utils::NAME.as_ptr()));
+        extensions.extend(validate.then_some(ext::validation_features::NAME.as_ptr()));
+
+        let application = vk::ApplicationInfo::default()
+            .application_name(c"manylight")
+            .engine_name(c"manylight")
+            .api_version(vk::API_VERSION_1_3);
+        let log = Arc::new(ValidationLog::default());
+        let mut messenger = messenger_info(&log);
+        let synchronization = [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
+        let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&synchronization);
+        let mut info = vk::InstanceCreateInfo::default()
+            .application_info(&application)
+            .enabled_layer_names(layers)
+            .enabled_extension_names(&extensions);
+        if validate {
+            info = info.push_next(&mut messenger).push_next(&mut features);
+        }
+        let handle = unsafe { entry.create_instance(&info, None) }.map_err(instance_error)?;
+        let mut instance = Self { handle, debug_utils, log, messenger: None, _entry: entry };
+        if validate {
+            instance.listen()?;
+        }
+        Ok(instance)
+    }
+
+    fn listen(&mut self) -> Result<()> {
+        let functions = ext::debug_utils::Instance::new(&self._entry, &self.handle);
+        let messenger = unsafe { functions.create_debug_utils_messenger(&messenger_info(&self.log), None) }
+            .map_err(|e| vk_error("making the validation messenger", e))?;
+        self.messenger = Some((functions, messenger));
+        Ok(())
+    }
+}
+
+impl Drop for Instance {
+    fn drop(&mut self) {
+        unsafe {
+            if let Some((functions, messenger)) = &self.messenger {
+                functions.destroy_debug_utils_messenger(*messenger, None);
+            }
+            self.handle.destroy_instance(None);
+        }
+    }
+}
+
+fn load() -> Result<ash::Entry> {
+    let entry = unsafe { ash::Entry::load() }.map_err(|error| {
+        Error::Device(format!(
+            "no Vulkan loader ({}): install it and a driver (Debian: apt install libvulkan1 and your GPU's driver, \
+             or mesa-vulkan-drivers for the software device lavapipe)",
+            error.to_string().lines().next().unwrap_or_default()
+        ))
+    })?;
+    let version = unsafe { entry.try_enumerate_instance_version() }
+        .map_err(|e| vk_error("asking for the Vulkan version", e))?
+        .unwrap_or(vk::API_VERSION_1_0);
+    if version < vk::API_VERSION_1_3 {
+        return Err(Error::Device(format!(
+            "the Vulkan loader speaks {}.{}, 1.3 is needed: install a newer libvulkan1",
+            vk::api_version_major(version),
+            vk::api_version_minor(version)
+        )));
+    }
+    Ok(entry)
+}
+
+fn require_validation(entry: &ash::Entry) -> Result<()> {
+    let layers = unsafe { entry.enumerate_instance_layer_properties() }
+        .map_err(|e| vk_error("listing the Vulkan layers", e))?;
+    let found = layers.iter().any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER));
+    let usable = found
+        && has_extension(entry, Some(VALIDATION_LAYER), ext::debug_utils::NAME)?
+        && has_extension(entry, Some(VALIDATION_LAYER), ext::validation_features::NAME)?;
+    match usable {
+        true => Ok(()),
+        false => Err(Error::Device(
+            "the Vulkan validation layers are not installed (Debian: apt install vulkan-validationlayers)"
+                .into(),
+        )),
+    }
+}
+
+fn has_extension(entry: &ash::Entry, layer: Option<&CStr>, name: &CStr) -> Result<bool> {
+    let extensions = unsafe { entry.enumerate_instance_extension_properties(layer) }
+        .map_err(|e| vk_error("listing the Vulkan extensions", e))?;
+    Ok(extensions.iter().any(|extension| extension.extension_name_as_c_str() == Ok(name)))
+}
+
+fn instance_error(result: vk::Result) -> Error {
+    match result {
+        vk::Result::ERROR_INCOMPATIBLE_DRIVER => Error::Device(
+            "no Vulkan driver found: install your GPU's driver, or the software device lavapipe \
+             (Debian: apt install mesa-vulkan-drivers)"
+                .into(),
+        ),
+        other => vk_error("making the Vulkan instance", other),
+    }
+}

@@ -1,0 +1,59 @@
+//! The thin Vulkan layer that the passes stand on: a device, memory that frees itself, shaders from GLSL,
+//! pipelines. It knows nothing of lights or clusters.
+//!
+//! ```text
+//! DeviceOptions ──> Context ──> Buffer, Image, SamplerCache, upload_textures
+//! shaders-glsl/ ──> ShaderLibrary ──> SPIR-V ──> compute_pipeline, graphics_pipeline
+//! ```
+//!
+//! Everything that owns a Vulkan object holds an `Arc<Context>`, so the device outlives it.
+
+mod buffer;
+mod context;
+mod device;
+mod features;
+mod image;
+mod instance;
+mod limits;
+mod pipeline;
+mod sampler;
+mod shader;
+mod texture;
+mod validation;
+
+pub use buffer::{Buffer, Memory};
+pub use context::{Context, DeviceOptions};
+pub use device::{DeviceListing, ListedDevice, list_devices};
+pub use image::{Image, ImageDesc};
+pub use limits::{DeviceInfo, Limits};
+pub use pipeline::{GraphicsDesc, Pipeline, compute_pipeline, graphics_pipeline};
+pub use sampler::SamplerCache;
+pub use shader::ShaderLibrary;
+pub use texture::upload_textures;
+pub use validation::ValidationLog;
+
+use crate::Error;
+use ash::vk;
+
+/// `size` in the largest binary unit that keeps it above one, for messages.
+fn bytes_text(size: u64) -> String {
+    match size {
+        0..1024 => format!("{size} B"),
+        1024..0x10_0000 => format!("{:.1} KiB", size as f64 / 1024.0),
+        0x10_0000..0x4000_0000 => format!("{:.1} MiB", size as f64 / 1_048_576.0),
+        _ => format!("{:.1} GiB", size as f64 / 1_073_741_824.0),
+    }
+}
+
+/// The error for a Vulkan call that failed while doing `what`: out of memory is the machine's lack, all else a fault.
+fn vk_error(what: &str, result: vk::Result) -> Error {
+    match result {
+        vk::Result::ERROR_OUT_OF_DEVICE_MEMORY | vk::Result::ERROR_OUT_OF_HOST_MEMORY => {
+            Error::Device(format!("{what}: out of memory"))
+        }
+        vk::Result::ERROR_DEVICE_LOST => {
+            Error::Internal(format!("{what}: the GPU was lost (driver crash or time-out)"))
+        }
+        other => Error::Internal(format!("{what}: {other}")),
+    }
+}
