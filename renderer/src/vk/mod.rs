@@ -18,6 +18,8 @@ mod limits;
 mod pipeline;
 mod sampler;
 mod shader;
+#[cfg(test)]
+mod tests;
 mod texture;
 mod validation;
 

@@ -15,9 +15,18 @@ const BYTES_PER_TEXEL: usize = 4;
 /// # Errors
 /// [`Error::Device`] when an image is too large for the device or the memory is out.
 pub fn upload_textures(context: &Arc<Context>, images: &[scene::Image]) -> Result<Vec<Image>> {
+    upload_in_chunks(context, images, STAGING_BYTES)
+}
+
+/// [`upload_textures`] with at most `capacity` bytes (or one row of texels) staged at a time.
+pub(super) fn upload_in_chunks(
+    context: &Arc<Context>,
+    images: &[scene::Image],
+    capacity: usize,
+) -> Result<Vec<Image>> {
     images.iter().try_for_each(check)?;
     let targets: Vec<Image> = images.iter().map(|image| make(context, image)).collect::<Result<_>>()?;
-    let chunks = plan(images, STAGING_BYTES);
+    let chunks = plan(images, capacity);
     let Some(size) = chunks.iter().map(|chunk| chunk.iter().map(Copy::bytes).sum::<usize>()).max() else {
         return Ok(targets);
     };
@@ -153,13 +162,13 @@ fn record(context: &Context, cmd: vk::CommandBuffer, staging: &Buffer, targets: 
 }
 
 /// A change of layout of whole images.
-struct Layouts {
-    old: vk::ImageLayout,
-    new: vk::ImageLayout,
+pub(super) struct Layouts {
+    pub old: vk::ImageLayout,
+    pub new: vk::ImageLayout,
 }
 
 impl Layouts {
-    fn change(&self, context: &Context, cmd: vk::CommandBuffer, targets: &[Image]) {
+    pub fn change(&self, context: &Context, cmd: vk::CommandBuffer, targets: &[Image]) {
         let barrier = |image: &Image| {
             vk::ImageMemoryBarrier2::default()
                 .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
@@ -179,5 +188,53 @@ impl Layouts {
                 .device
                 .cmd_pipeline_barrier2(cmd, &vk::DependencyInfo::default().image_memory_barriers(&barriers))
         };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn blank(width: u32, height: u32) -> scene::Image {
+        let levels = width.max(height).ilog2() as usize + 1;
+        let mut image = scene::Image { name: "blank".into(), width, height, srgb: false, mips: Vec::new() };
+        for mip in 0..levels {
+            let (w, h) = level_size(&image, mip);
+            image.mips.push(vec![0; w * h * BYTES_PER_TEXEL]);
+        }
+        image
+    }
+
+    proptest! {
+        #[test]
+        fn every_row_is_copied_once_and_no_chunk_is_too_large(
+            sizes in prop::collection::vec((1u32..40, 1u32..40), 0..6),
+            capacity in 1usize..2000,
+        ) {
+            let images: Vec<_> = sizes.iter().map(|&(width, height)| blank(width, height)).collect();
+            let mut copied: Vec<Vec<Vec<u8>>> = images.iter().map(|image| image.mips.clone()).collect();
+            for chunk in plan(&images, capacity) {
+                prop_assert!(!chunk.is_empty());
+                let one_row = chunk.len() == 1 && chunk[0].rows == 1;
+                prop_assert!(one_row || chunk.iter().map(Copy::bytes).sum::<usize>() <= capacity);
+                for copy in chunk {
+                    let start = copy.first_row * copy.width * BYTES_PER_TEXEL;
+                    let level = &mut copied[copy.image][copy.mip];
+                    level[start..start + copy.bytes()].iter_mut().for_each(|times| *times += 1);
+                }
+            }
+            prop_assert!(copied.iter().flatten().flatten().all(|&times| times == 1));
+        }
+    }
+
+    #[test]
+    fn an_image_whose_levels_do_not_fit_is_refused() {
+        let mut image = blank(8, 4);
+        check(&image).unwrap();
+        image.mips[1].pop();
+        assert!(check(&image).unwrap_err().to_string().contains("blank"));
+        image.mips.clear();
+        assert!(check(&image).is_err());
     }
 }

@@ -1,0 +1,149 @@
+//! Graphics pipelines.
+
+use super::*;
+
+const TRIANGLE: &str = "#version 460
+layout(location = 0) in vec2 position;
+void main() { gl_Position = vec4(position, 0.5, 1.0); }
+";
+const WHITE: &str = "#version 460
+layout(location = 0) out vec4 color;
+void main() { color = vec4(1.0, 1.0, 1.0, 0.5) * (gl_SampleID >= 0 ? 1.0 : 0.0); }
+";
+const SIDE: u32 = 8;
+
+/// Draws a triangle over the lower left half of the frame (+Y up), counter-clockwise as given here.
+fn draw(context: &Arc<Context>, desc: GraphicsDesc<'_>, corners: [[f32; 2]; 3]) -> Vec<[u8; 4]> {
+    let library = shaders(&[("a.vert", TRIANGLE), ("a.frag", WHITE)]);
+    let vertex = library.compile("a.vert", &[]).unwrap();
+    let fragment = library.compile("a.frag", &[]).unwrap();
+    let format = vk::Format::R8G8B8A8_UNORM;
+    let bindings = [vk::VertexInputBindingDescription { stride: 8, ..Default::default() }];
+    let attributes =
+        [vk::VertexInputAttributeDescription { format: vk::Format::R32G32_SFLOAT, ..Default::default() }];
+    let desc = GraphicsDesc {
+        vertex: &vertex,
+        fragment: Some(&fragment),
+        bindings: &bindings,
+        attributes: &attributes,
+        color_format: Some(format),
+        ..desc
+    };
+    let set = Bindings::new(context, &[]);
+    let pipeline = graphics_pipeline(context, set.layout, &desc, "triangle").unwrap();
+    let vertices =
+        Buffer::with_data(context, "corners", vk::BufferUsageFlags::VERTEX_BUFFER, &corners).unwrap();
+    let image_desc = ImageDesc { width: SIDE, height: SIDE, format, ..Default::default() };
+    let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC;
+    let drawn =
+        Image::new(context, "drawn", ImageDesc { samples: desc.samples, usage, ..image_desc }).unwrap();
+    let usage = usage | vk::ImageUsageFlags::TRANSFER_DST;
+    let shown = Image::new(context, "shown", ImageDesc { usage, ..image_desc }).unwrap();
+    let multisampled = desc.samples != vk::SampleCountFlags::TYPE_1;
+    let readable = if multisampled { &shown } else { &drawn };
+    let transfer = vk::BufferUsageFlags::TRANSFER_DST;
+    let size = u64::from(SIDE * SIDE * 4);
+    let pixels = Buffer::new(context, "pixels", size, transfer, Memory::Readback).unwrap();
+    let attachment = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
+    let source = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
+    context
+        .submit_and_wait(|cmd| unsafe {
+            let device = &context.device;
+            change(context, cmd, &drawn, vk::ImageLayout::UNDEFINED, attachment);
+            change(context, cmd, &shown, vk::ImageLayout::UNDEFINED, attachment);
+            let mut target = vk::RenderingAttachmentInfo::default()
+                .image_view(drawn.view)
+                .image_layout(attachment)
+                .load_op(vk::AttachmentLoadOp::CLEAR)
+                .store_op(vk::AttachmentStoreOp::STORE);
+            if multisampled {
+                target = target
+                    .resolve_mode(vk::ResolveModeFlags::AVERAGE)
+                    .resolve_image_view(shown.view)
+                    .resolve_image_layout(attachment);
+            }
+            let targets = [target];
+            let area = vk::Rect2D { extent: drawn.extent, ..Default::default() };
+            let rendering =
+                vk::RenderingInfo::default().render_area(area).layer_count(1).color_attachments(&targets);
+            device.cmd_begin_rendering(cmd, &rendering);
+            device.cmd_bind_pipeline(cmd, vk::PipelineBindPoint::GRAPHICS, pipeline.handle);
+            let side = SIDE as f32;
+            let (y, height, max_depth) = (side, -side, 1.0);
+            let flipped = vk::Viewport { y, width: side, height, max_depth, ..Default::default() };
+            device.cmd_set_viewport(cmd, 0, &[flipped]);
+            device.cmd_set_scissor(cmd, 0, &[area]);
+            if desc.dynamic_front_face {
+                device.cmd_set_front_face(cmd, vk::FrontFace::CLOCKWISE);
+            }
+            device.cmd_bind_vertex_buffers(cmd, 0, &[vertices.handle], &[0]);
+            device.cmd_draw(cmd, 3, 1, 0, 0);
+            device.cmd_end_rendering(cmd);
+            change(context, cmd, readable, attachment, source);
+            let region = vk::BufferImageCopy::default()
+                .image_subresource(vk::ImageSubresourceLayers {
+                    aspect_mask: vk::ImageAspectFlags::COLOR,
+                    layer_count: 1,
+                    ..Default::default()
+                })
+                .image_extent(vk::Extent3D { width: SIDE, height: SIDE, depth: 1 });
+            device.cmd_copy_image_to_buffer(cmd, readable.handle, source, pixels.handle, &[region]);
+            to_host(context, cmd);
+        })
+        .unwrap();
+    pixels.read(0, (SIDE * SIDE) as usize)
+}
+
+fn change(
+    context: &Context,
+    cmd: vk::CommandBuffer,
+    image: &Image,
+    old: vk::ImageLayout,
+    new: vk::ImageLayout,
+) {
+    texture::Layouts { old, new }.change(context, cmd, std::slice::from_ref(image));
+}
+
+const LOWER_LEFT: [[f32; 2]; 3] = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0]];
+
+fn reversed(mut corners: [[f32; 2]; 3]) -> [[f32; 2]; 3] {
+    corners.reverse();
+    corners
+}
+
+#[test]
+fn counter_clockwise_is_front_and_up_is_up() {
+    silently(|context| {
+        let pixels = draw(context, GraphicsDesc::default(), LOWER_LEFT);
+        let at = |x: u32, y: u32| pixels[(y * SIDE + x) as usize];
+        assert_eq!(at(0, SIDE - 1), [255, 255, 255, 128], "lower left");
+        assert_eq!(at(SIDE - 1, 0), [0; 4], "upper right");
+        let background = vec![[0; 4]; pixels.len()];
+        assert_eq!(draw(context, GraphicsDesc::default(), reversed(LOWER_LEFT)), background);
+        let mirrored = GraphicsDesc { dynamic_front_face: true, ..Default::default() };
+        assert_eq!(draw(context, mirrored, reversed(LOWER_LEFT)), pixels);
+        let both = GraphicsDesc { cull_mode: vk::CullModeFlags::NONE, ..Default::default() };
+        assert_eq!(draw(context, both, reversed(LOWER_LEFT)), pixels);
+    });
+}
+
+#[test]
+fn blending_is_source_alpha_over_what_is_there() {
+    silently(|context| {
+        let pixels = draw(context, GraphicsDesc { blend: true, ..Default::default() }, LOWER_LEFT);
+        assert_eq!(pixels[((SIDE - 1) * SIDE) as usize], [128, 128, 128, 128]);
+    });
+}
+
+#[test]
+fn four_samples_shaded_each_smooth_the_edge() {
+    silently(|context| {
+        assert!(context.limits.sample_counts.contains(&4), "required of every device");
+        let sample_shading = context.limits.sample_rate_shading;
+        let desc =
+            GraphicsDesc { samples: vk::SampleCountFlags::TYPE_4, sample_shading, ..Default::default() };
+        let pixels = draw(context, desc, LOWER_LEFT);
+        let edge = pixels.iter().filter(|p| p[0] != 0 && p[0] != 255).count();
+        assert!(edge >= SIDE as usize / 2, "{pixels:?}");
+    });
+}
