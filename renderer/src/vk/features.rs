@@ -51,7 +51,10 @@ impl Features {
             .multi_draw_indirect(self.core.multi_draw_indirect == vk::TRUE)
             .draw_indirect_first_instance(self.core.draw_indirect_first_instance == vk::TRUE)
             .shader_int64(self.core.shader_int64 == vk::TRUE);
-        enabled.v11 = enabled.v11.multiview(self.v11.multiview == vk::TRUE);
+        enabled.v11 = enabled
+            .v11
+            .multiview(self.v11.multiview == vk::TRUE)
+            .shader_draw_parameters(self.v11.shader_draw_parameters == vk::TRUE);
         enabled.v12 =
             enabled.v12.scalar_block_layout(true).host_query_reset(self.v12.host_query_reset == vk::TRUE);
         enabled.v13 = enabled

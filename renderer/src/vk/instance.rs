@@ -105,16 +105,21 @@ fn require_validation(entry: &ash::Entry) -> Result<()> {
     let layers = unsafe { entry.enumerate_instance_layer_properties() }
         .map_err(|e| vk_error("listing the Vulkan layers", e))?;
     let found = layers.iter().any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER));
-    let usable = found
-        && has_extension(entry, Some(VALIDATION_LAYER), ext::debug_utils::NAME)?
-        && has_extension(entry, Some(VALIDATION_LAYER), ext::validation_features::NAME)?;
-    match usable {
-        true => Ok(()),
-        false => Err(Error::Device(
+    if !found {
+        return Err(Error::Device(
             "the Vulkan validation layers are not installed (Debian: apt install vulkan-validationlayers)"
                 .into(),
-        )),
+        ));
     }
+    for name in [ext::debug_utils::NAME, ext::validation_features::NAME] {
+        if !has_extension(entry, Some(VALIDATION_LAYER), name)? {
+            return Err(Error::Device(format!(
+                "the Vulkan validation layers lack {}: install another version of vulkan-validationlayers",
+                name.to_string_lossy()
+            )));
+        }
+    }
+    Ok(())
 }
 
 fn has_extension(entry: &ash::Entry, layer: Option<&CStr>, name: &CStr) -> Result<bool> {

@@ -78,6 +78,8 @@ pub struct Limits {
     pub max_multiview_views: u32,
     /// Whether queries can be reset from the host.
     pub host_query_reset: bool,
+    /// Whether vertex shaders have `gl_DrawID`, `gl_BaseVertex` and `gl_BaseInstance`.
+    pub shader_draw_parameters: bool,
     /// Whether shaders have 64-bit integers.
     pub shader_int64: bool,
 }
@@ -172,6 +174,7 @@ pub(super) fn read_limits(instance: &ash::Instance, physical: vk::PhysicalDevice
         multiview: f11.multiview == vk::TRUE,
         max_multiview_views: v11.max_multiview_view_count,
         host_query_reset: f12.host_query_reset == vk::TRUE,
+        shader_draw_parameters: f11.shader_draw_parameters == vk::TRUE,
         shader_int64: core.shader_int64 == vk::TRUE,
     }
 }

@@ -30,9 +30,8 @@ impl DiskCache {
 
     /// The user's cache: `$XDG_CACHE_HOME/manylight/spirv`, else `~/.cache/manylight/spirv`; `None` without a home.
     pub fn of_user() -> Option<Self> {
-        let absolute = |name| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
-        let base = absolute("XDG_CACHE_HOME").or_else(|| absolute("HOME").map(|home| home.join(".cache")))?;
-        Some(Self::new(base.join("manylight/spirv")))
+        let variable = |name| std::env::var_os(name).map(PathBuf::from);
+        user_directory(variable("XDG_CACHE_HOME"), variable("HOME")).map(Self::new)
     }
 
     /// The words kept under `key`, if whole.
@@ -57,6 +56,13 @@ impl DiskCache {
         let hex: String = key.iter().map(|byte| format!("{byte:02x}")).collect();
         self.directory.join(hex + ".spv")
     }
+}
+
+/// The XDG Base Directory Specification's rule: a relative path is as good as none.
+fn user_directory(cache_home: Option<PathBuf>, home: Option<PathBuf>) -> Option<PathBuf> {
+    let absolute = |path: Option<PathBuf>| path.filter(|path| path.is_absolute());
+    let base = absolute(cache_home).or_else(|| absolute(home).map(|home| home.join(".cache")))?;
+    Some(base.join("manylight/spirv"))
 }
 
 fn write(directory: &Path, path: &Path, bytes: &[u8]) -> std::io::Result<()> {
@@ -98,6 +104,14 @@ mod tests {
             assert_eq!(decode(&whole[..byte]), None, "cut at {byte}");
         }
         assert_eq!(decode(&encode(&[7, 7])), None);
+    }
+
+    #[test]
+    fn the_users_cache_is_where_xdg_says() {
+        let at = |cache: &str, home: &str| user_directory(Some(cache.into()), Some(home.into()));
+        assert_eq!(at("/c", "/h"), Some("/c/manylight/spirv".into()));
+        assert_eq!(at("relative", "/h"), Some("/h/.cache/manylight/spirv".into()));
+        assert_eq!(at("", ""), None);
     }
 
     #[test]
