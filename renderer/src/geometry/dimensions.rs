@@ -1,0 +1,121 @@
+//! How many clusters a grid has along each axis, from pixels, from metres or from a volume.
+//!
+//! Dimensions are whole numbers in f64 here: only a finished grid is checked against what a u32 can index.
+
+use super::Frustum;
+use glam::DVec3;
+
+/// Relative slack when rounding a count up: 50 stays 50 where rounding errors made it 50.000000000001, so
+/// that a grid does not change with the pose of the camera.
+const ROUNDING: f64 = 1e-10;
+
+/// Dimensions and, for perspective grids, the ratio d: slice k spans depths z1*(1+d)^k..z1*(1+d)^(k+1).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PerspectiveDimensions {
+    pub dimensions: DVec3,
+    pub ratio: f64,
+}
+
+/// Persp P: clusters of `pixels` squared on a screen of `resolution` pixels (Gelderen section 3.1).
+///
+/// The ratio is the mean of a cluster's two sides in tangents, so that clusters are about as deep as wide.
+pub fn from_pixels(frustum: &Frustum, resolution: [u32; 2], pixels: f64) -> PerspectiveDimensions {
+    let columns = f64::from(resolution[0]) / pixels;
+    let rows = f64::from(resolution[1]) / pixels;
+    let size = frustum.size();
+    let ratio = (size.x / columns + size.y / rows) / 2.0;
+    let slices = depth_span(frustum) / ratio.ln_1p();
+    PerspectiveDimensions {
+        dimensions: DVec3::new(round_up(columns), round_up(rows), round_up(slices)),
+        ratio,
+    }
+}
+
+/// The average volume of a cluster of Persp P, cubic metres.
+pub fn average_volume(frustum: &Frustum, counts: &PerspectiveDimensions) -> f64 {
+    frustum.volume() / counts.dimensions.element_product()
+}
+
+/// Ortho S: sides of about `metres` (at most), dividing `extent` exactly.
+pub fn from_metres(extent: DVec3, metres: f64) -> DVec3 {
+    (extent / metres).map(round_up)
+}
+
+/// A perspective grid over the whole of `frustum` whose clusters have about `volume` cubic metres on average
+/// (Gelderen equations 4.4 and 4.5).
+pub fn from_volume(frustum: &Frustum, volume: f64) -> PerspectiveDimensions {
+    let depths = depth_span(frustum);
+    let side = solve_ratio(3.0 * depths * volume / (frustum.z1.powi(3) - frustum.z0.powi(3)));
+    let size = frustum.size();
+    let slices = round_up(depths / side.ln_1p());
+    PerspectiveDimensions {
+        dimensions: DVec3::new(round_up(size.x / side), round_up(size.y / side), slices),
+        ratio: (depths / slices).exp_m1(),
+    }
+}
+
+/// ln(far/near).
+fn depth_span(frustum: &Frustum) -> f64 {
+    (frustum.z0 / frustum.z1).ln()
+}
+
+fn round_up(count: f64) -> f64 {
+    (count * (1.0 - ROUNDING)).ceil().max(1.0)
+}
+
+/// Solves d^2*ln(1+d) = `right` by Newton's method to a relative 1e-12.
+///
+/// The left side is convex and grows; at the start, the cube root, it is too small. So the first step
+/// overshoots, every further one comes down, and no step can fail.
+fn solve_ratio(right: f64) -> f64 {
+    let mut d = right.cbrt();
+    for _ in 0..MAX_STEPS {
+        let log = d.ln_1p();
+        let step = (d * d * log - right) / (2.0 * d * log + d * d / (1.0 + d));
+        d -= step;
+        if step.abs() <= 1e-12 * d {
+            break;
+        }
+    }
+    d
+}
+
+/// Far more than quadratic convergence ever takes.
+const MAX_STEPS: u32 = 100;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn rounding_up_forgives_rounding_errors_only() {
+        assert_eq!(round_up(50.0 + 1e-12), 50.0);
+        assert_eq!(round_up(50.0001), 51.0);
+        assert_eq!(round_up(1e-9), 1.0);
+        assert_eq!(from_metres(DVec3::new(200.0, 112.5, 99.6), 4.0), DVec3::new(50.0, 29.0, 25.0));
+    }
+
+    proptest! {
+        #[test]
+        fn newton_solves_the_equation(exponent in -12.0..6.0f64) {
+            let right = 10f64.powf(exponent);
+            let d = solve_ratio(right);
+            prop_assert!((d * d * d.ln_1p() / right - 1.0).abs() < 1e-10);
+        }
+
+        #[test]
+        fn the_volume_asked_for_is_met_before_rounding(
+            far in 5.0..500.0f64, x in 0.3..2.0f64, volume in 0.001..1.0f64,
+        ) {
+            let frustum = Frustum { x0: -x, x1: 0.5 * x, y0: -0.7, y1: 1.1, z0: -far, z1: -0.2 };
+            let counts = from_volume(&frustum, volume);
+            let average = average_volume(&frustum, &counts);
+            prop_assert!(average <= volume * (1.0 + 1e-9), "rounding up only makes clusters smaller");
+            let one_less = (counts.dimensions - DVec3::ONE).element_product();
+            prop_assert!(frustum.volume() / one_less.max(1e-9) >= volume * (1.0 - 1e-9));
+            let reached = frustum.z1 * (1.0 + counts.ratio).powf(counts.dimensions.z);
+            prop_assert!((reached / frustum.z0 - 1.0).abs() < 1e-9, "the slices end at the far plane");
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! A grid of clusters: from points to clusters and from clusters to their shapes.
+
+use super::Frustum;
+use crate::views::Pose;
+use glam::DVec3;
+
+/// How far outside the grid, relative to its dimensions, a point still counts as on its rim.
+const RIM: f64 = 1e-9;
+
+/// The shape of a grid, in clustering space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ClusterSpace {
+    /// Clusters divide the frustum evenly in tangents, and geometrically in depth (Gelderen equation 3.3).
+    Perspective {
+        /// From the apex at the origin of clustering space. The last slice may reach beyond `z0`.
+        frustum: Frustum,
+        /// d: slice k spans depths z1*(1+d)^k..z1*(1+d)^(k+1).
+        ratio: f64,
+    },
+    /// Clusters divide an axis-aligned box evenly.
+    Orthographic {
+        /// Lowest corner, metres.
+        min: DVec3,
+        /// Highest corner, metres.
+        max: DVec3,
+    },
+}
+
+/// A clustering's grid. Linear index ix + Dx*(iy + Dy*iz).
+///
+/// ix grows to the right and iy upwards; iz grows away from the camera in perspective grids, and with z,
+/// towards the camera, in orthographic ones.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// World from clustering space.
+    pub pose: Pose,
+    /// Shape in clustering space.
+    pub space: ClusterSpace,
+    /// Dx, Dy, Dz; their product fits a u32.
+    pub dimensions: [u32; 3],
+}
+
+impl Grid {
+    /// Dx*Dy*Dz.
+    pub fn cluster_count(&self) -> u64 {
+        self.dimensions.into_iter().map(u64::from).product()
+    }
+
+    /// The linear index of a cluster.
+    pub fn linear(&self, [ix, iy, iz]: [u32; 3]) -> u32 {
+        let [dx, dy, _] = self.dimensions;
+        ix + dx * (iy + dy * iz)
+    }
+
+    /// The cluster with a linear index: the inverse of [`Grid::linear`].
+    pub fn cluster_at(&self, linear: u32) -> [u32; 3] {
+        let [dx, dy, _] = self.dimensions;
+        [linear % dx, linear / dx % dy, linear / dx / dy]
+    }
+
+    /// The cluster that a world point lies in, `None` outside the grid.
+    pub fn cluster_of(&self, world: DVec3) -> Option<[u32; 3]> {
+        self.cluster_of_local(self.pose.inverse_transform_point(world))
+    }
+
+    /// The cluster that a point of clustering space lies in, `None` outside the grid.
+    ///
+    /// The rim of the grid belongs to it, and so does what rounding errors put just outside.
+    pub fn cluster_of_local(&self, point: DVec3) -> Option<[u32; 3]> {
+        let at = self.coordinates(point)?;
+        let dimensions = self.dimensions_f64();
+        let inside = (at.cmpge(-RIM * dimensions) & at.cmple((1.0 + RIM) * dimensions)).all();
+        inside.then(|| self.clamped(at))
+    }
+
+    /// The cluster that a point of clustering space lies in, or the nearest one along each cluster axis;
+    /// `None` only behind the apex of a perspective grid. This is what a shader computes for a fragment.
+    pub fn nearest_cluster(&self, point: DVec3) -> Option<[u32; 3]> {
+        self.coordinates(point).map(|at| self.clamped(at))
+    }
+
+    /// Fractional cluster coordinates of a point of clustering space: their floors are the cluster index.
+    ///
+    /// `None` where they are not defined: at or behind the apex of a perspective grid.
+    pub fn coordinates(&self, point: DVec3) -> Option<DVec3> {
+        let dimensions = self.dimensions_f64();
+        match self.space {
+            ClusterSpace::Perspective { frustum: f, ratio } => (point.z < 0.0).then(|| {
+                let size = f.size();
+                DVec3::new(
+                    dimensions.x * (point.x / -point.z - f.x0) / size.x,
+                    dimensions.y * (point.y / -point.z - f.y0) / size.y,
+                    (point.z / f.z1).ln() / ratio.ln_1p(),
+                )
+            }),
+            ClusterSpace::Orthographic { min, max } => Some(dimensions * (point - min) / (max - min)),
+        }
+    }
+
+    /// The corners of a cluster in clustering space: bit 0, 1 and 2 of the position choose the upper x, y
+    /// and z index.
+    pub fn cell_corners(&self, cell: [u32; 3]) -> [DVec3; 8] {
+        std::array::from_fn(|corner| {
+            let upper = |axis: usize| f64::from(cell[axis]) + f64::from(corner as u32 >> axis & 1);
+            self.point_at(DVec3::new(upper(0), upper(1), upper(2)))
+        })
+    }
+
+    /// The axis-aligned bounds of a cluster in clustering space, (lowest, highest): exact for orthographic
+    /// grids.
+    pub fn cell_bounds(&self, cell: [u32; 3]) -> (DVec3, DVec3) {
+        self.cell_corners(cell)
+            .into_iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), corner| {
+                (low.min(corner), high.max(corner))
+            })
+    }
+
+    /// The point of clustering space with the given fractional cluster coordinates: the inverse of
+    /// [`Grid::coordinates`].
+    pub fn point_at(&self, coordinates: DVec3) -> DVec3 {
+        let part = coordinates / self.dimensions_f64();
+        match self.space {
+            ClusterSpace::Perspective { frustum: f, ratio } => {
+                let size = f.size();
+                let distance = f.near() * (coordinates.z * ratio.ln_1p()).exp();
+                DVec3::new(f.x0 + size.x * part.x, f.y0 + size.y * part.y, -1.0) * distance
+            }
+            ClusterSpace::Orthographic { min, max } => min + (max - min) * part,
+        }
+    }
+
+    fn dimensions_f64(&self) -> DVec3 {
+        DVec3::from_array(self.dimensions.map(f64::from))
+    }
+
+    fn clamped(&self, coordinates: DVec3) -> [u32; 3] {
+        let last = self.dimensions_f64() - DVec3::ONE;
+        // Within 0..=last, the conversion is exact.
+        coordinates.floor().clamp(DVec3::ZERO, last).to_array().map(|index| index as u32)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn perspective() -> Grid {
+        let frustum = Frustum { x0: -1.0, x1: 1.0, y0: -0.5, y1: 0.5, z0: -16.0, z1: -1.0 };
+        let space = ClusterSpace::Perspective { frustum, ratio: 1.0 };
+        Grid { pose: Pose::from_position(DVec3::new(0.0, 0.0, 3.0)), space, dimensions: [4, 2, 4] }
+    }
+
+    fn orthographic() -> Grid {
+        let space = ClusterSpace::Orthographic { min: DVec3::splat(-2.0), max: DVec3::new(2.0, 4.0, 6.0) };
+        Grid { pose: Pose::IDENTITY, space, dimensions: [4, 3, 2] }
+    }
+
+    #[test]
+    fn slices_double_and_slice_0_is_at_the_near_plane() {
+        let grid = perspective();
+        for (distance, slice) in [(1.0, 0), (1.9, 0), (2.1, 1), (7.9, 2), (8.1, 3), (16.0, 3)] {
+            assert_eq!(grid.cluster_of_local(DVec3::new(0.0, 0.0, -distance)), Some([2, 1, slice]));
+        }
+        assert_eq!(grid.cluster_of(DVec3::new(0.0, 0.0, 2.0)), Some([2, 1, 0]), "the pose counts");
+    }
+
+    #[test]
+    fn outside_is_nowhere_and_the_rim_is_inside() {
+        let grid = perspective();
+        for outside in [
+            DVec3::new(0.0, 0.0, 1.0),
+            DVec3::ZERO,
+            DVec3::new(0.0, 0.0, -0.99),
+            DVec3::new(0.0, 0.0, -16.01),
+            DVec3::new(2.001, 0.0, -2.0),
+            DVec3::NAN,
+        ] {
+            assert_eq!(grid.cluster_of_local(outside), None, "{outside}");
+        }
+        assert_eq!(grid.nearest_cluster(DVec3::new(9.0, -9.0, -99.0)), Some([2, 1, 3]));
+        assert_eq!(grid.nearest_cluster(DVec3::new(900.0, -900.0, -0.5)), Some([3, 0, 0]));
+        assert_eq!(grid.cluster_of_local(DVec3::new(16.0, 8.0, -16.0)), Some([3, 1, 3]));
+        assert_eq!(orthographic().cluster_of_local(DVec3::new(2.0, 4.0, 6.0)), Some([3, 2, 1]));
+        assert_eq!(orthographic().cluster_of_local(DVec3::new(2.0, 4.0, 6.1)), None);
+    }
+
+    #[test]
+    fn a_cell_has_the_corners_its_index_says() {
+        let corners = orthographic().cell_corners([1, 0, 1]);
+        assert_eq!(corners[0], DVec3::new(-1.0, -2.0, 2.0));
+        assert_eq!(corners[1], DVec3::new(0.0, -2.0, 2.0));
+        assert_eq!(corners[6], DVec3::new(-1.0, 0.0, 6.0));
+        let (low, high) = perspective().cell_bounds([3, 1, 1]);
+        assert!((low - DVec3::new(1.0, 0.0, -4.0)).length() < 1e-12, "{low}");
+        assert!((high - DVec3::new(4.0, 2.0, -2.0)).length() < 1e-12, "{high}");
+    }
+}

@@ -1,0 +1,169 @@
+//! From a method and the views of a frame to its clustering grids.
+
+use super::dimensions::{PerspectiveDimensions, average_volume, from_metres, from_pixels, from_volume};
+use super::displaced::displaced;
+use super::{ClusterSpace, Frustum, Grid, enclosing};
+use crate::config::DisplacedVolume;
+use crate::methods::{MethodSpec, Sharing, Space};
+use crate::views::{Pose, View, head_space};
+use crate::{Error, Result};
+use glam::DVec3;
+
+/// Sizes above this (pixels or metres) are no use to anybody and would spoil the precision of what follows.
+const LARGEST_SIZE: f64 = 1e6;
+
+/// Plans the clusterings of a frame: one grid a view for [`Sharing::Indi`], in the order of the views, one
+/// grid in all for [`Sharing::Encl`].
+///
+/// `resolution` is that of each view in pixels (width, height). `volume` says which frustum sizes the
+/// clusters of [`Space::Displ`]; with [`Sharing::Encl`], volumes are averaged over the views, each by itself.
+///
+/// # Errors
+/// No views, an invalid view, a zero resolution, a size or displacement that is not a positive number, views
+/// that no frustum encloses, and a grid of more clusters than a u32 can index.
+pub fn plan(
+    space: Space,
+    sharing: Sharing,
+    views: &[View],
+    resolution: [u32; 2],
+    volume: DisplacedVolume,
+) -> Result<Vec<Grid>> {
+    let name = MethodSpec::Clustered { sharing, space };
+    let planner = Planner { name, space, resolution, volume };
+    planner.check(views)?;
+    match sharing {
+        Sharing::Indi => views.iter().map(|view| planner.individual(view)).collect(),
+        Sharing::Encl => Ok(vec![planner.enclosing(views)?]),
+    }
+}
+
+struct Planner {
+    name: MethodSpec,
+    space: Space,
+    resolution: [u32; 2],
+    volume: DisplacedVolume,
+}
+
+impl Planner {
+    fn check(&self, views: &[View]) -> Result<()> {
+        let sizes = match self.space {
+            Space::Persp { pixels } => vec![pixels],
+            Space::Ortho { metres } => vec![metres],
+            Space::Displ { pixels, displacement } => vec![pixels, displacement],
+        };
+        if let Some(size) = sizes.into_iter().find(|size| !(*size > 0.0 && *size <= LARGEST_SIZE)) {
+            let message = format!("a size of {size} is not above 0 and at most {LARGEST_SIZE}");
+            return Err(self.error(&message));
+        }
+        if views.is_empty() {
+            return Err(self.error("there is no view to cluster"));
+        }
+        let [width, height] = self.resolution;
+        if width == 0 || height == 0 {
+            return Err(self.error(&format!("resolution {width}x{height} must not be zero")));
+        }
+        views.iter().try_for_each(View::validate)
+    }
+
+    fn individual(&self, view: &View) -> Result<Grid> {
+        let frustum = &view.frustum;
+        match self.space {
+            Space::Persp { pixels } => {
+                let counts = from_pixels(frustum, self.resolution, pixels);
+                self.perspective(view.pose, self.grown(frustum, pixels, &counts), counts)
+            }
+            Space::Ortho { metres } => self.orthographic(view.pose, std::slice::from_ref(view), metres),
+            Space::Displ { pixels, displacement } => {
+                let volume = self.displaced_cluster_volume(frustum, pixels, displacement);
+                self.displaced(view.pose, frustum, displacement, volume)
+            }
+        }
+    }
+
+    fn enclosing(&self, views: &[View]) -> Result<Grid> {
+        let head = head_space(views);
+        let mean = |volume: &dyn Fn(&Frustum) -> f64| {
+            views.iter().map(|view| volume(&view.frustum)).sum::<f64>() / views.len() as f64
+        };
+        match self.space {
+            Space::Persp { pixels } => {
+                let volume = mean(&|frustum| self.cluster_volume(frustum, pixels));
+                let (pose, frustum) = self.enclosing_frustum(&head, views)?;
+                self.perspective(pose, frustum, from_volume(&frustum, volume))
+            }
+            Space::Ortho { metres } => self.orthographic(head, views, metres),
+            Space::Displ { pixels, displacement } => {
+                let volume = mean(&|frustum| self.displaced_cluster_volume(frustum, pixels, displacement));
+                let (pose, frustum) = self.enclosing_frustum(&head, views)?;
+                self.displaced(pose, &frustum, displacement, volume)
+            }
+        }
+    }
+
+    fn enclosing_frustum(&self, head: &Pose, views: &[View]) -> Result<(Pose, Frustum)> {
+        let found = enclosing(head, views).map_err(|error| self.error(&error.to_string()))?;
+        Ok((*head * Pose::from_position(DVec3::Z * found.apex), found.frustum))
+    }
+
+    /// Average volume of a cluster of Persp on `frustum`.
+    fn cluster_volume(&self, frustum: &Frustum, pixels: f64) -> f64 {
+        average_volume(frustum, &from_pixels(frustum, self.resolution, pixels))
+    }
+
+    /// The cluster volume that Displ aims at.
+    fn displaced_cluster_volume(&self, frustum: &Frustum, pixels: f64, displacement: f64) -> f64 {
+        let counts = from_pixels(frustum, self.resolution, pixels);
+        match self.volume {
+            DisplacedVolume::View => average_volume(frustum, &counts),
+            DisplacedVolume::Own => average_volume(&displaced(frustum, displacement).1, &counts),
+        }
+    }
+
+    /// Clusters tile the screen from its lower left pixel in steps of exactly `pixels`, so that the last
+    /// column and row reach beyond its right and upper side.
+    fn grown(&self, frustum: &Frustum, pixels: f64, counts: &PerspectiveDimensions) -> Frustum {
+        let size = frustum.size();
+        let screens = |axis: usize| counts.dimensions[axis] * pixels / f64::from(self.resolution[axis]);
+        Frustum { x1: frustum.x0 + size.x * screens(0), y1: frustum.y0 + size.y * screens(1), ..*frustum }
+    }
+
+    fn displaced(&self, pose: Pose, frustum: &Frustum, displacement: f64, volume: f64) -> Result<Grid> {
+        let (apex, seen) = displaced(frustum, displacement);
+        self.perspective(pose * Pose::from_position(apex), seen, from_volume(&seen, volume))
+    }
+
+    fn perspective(&self, pose: Pose, frustum: Frustum, counts: PerspectiveDimensions) -> Result<Grid> {
+        let PerspectiveDimensions { dimensions, ratio } = counts;
+        self.grid(pose, ClusterSpace::Perspective { frustum, ratio }, dimensions)
+    }
+
+    /// Bounds, in `space`, of all corners of all views.
+    fn orthographic(&self, space: Pose, views: &[View], metres: f64) -> Result<Grid> {
+        let corners = views.iter().flat_map(|view| {
+            let space_from_view = space.inverse() * view.pose;
+            view.frustum.corners().map(|corner| space_from_view.transform_point(corner))
+        });
+        let (min, max) = corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), corner| {
+            (min.min(corner), max.max(corner))
+        });
+        self.grid(space, ClusterSpace::Orthographic { min, max }, from_metres(max - min, metres))
+    }
+
+    /// The grid, once its clusters are known to fit the indices.
+    fn grid(&self, pose: Pose, space: ClusterSpace, dimensions: DVec3) -> Result<Grid> {
+        let count = dimensions.element_product();
+        // Not `>`: refuses NaN as well. The last index stays free to mean 'none'.
+        if !(count <= f64::from(u32::MAX)) {
+            let DVec3 { x, y, z } = dimensions;
+            return Err(self.error(&format!(
+                "a grid of {x} x {y} x {z} clusters is more than {}; choose a larger size",
+                u32::MAX
+            )));
+        }
+        Ok(Grid { pose, space, dimensions: dimensions.to_array().map(|n| n as u32) })
+    }
+
+    fn error(&self, message: &str) -> Error {
+        Error::input(format!("method {}: {message}", self.name))
+    }
+}

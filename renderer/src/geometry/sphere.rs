@@ -1,0 +1,143 @@
+//! Which spheres (lights) meet a cluster: conservative and exact tests.
+//!
+//! Tests answer with a signed margin in metres: at least 0 means that they meet, and its size tells how close
+//! the answer was, so that a comparison with f32 results can leave borderline pairs out.
+
+use super::{ClusterSpace, Frustum, Grid};
+use glam::DVec3;
+
+/// Which test decides whether a sphere meets a cluster.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SphereTest {
+    /// HS: the centre lies inside the cluster's six planes, each moved out by the radius (Gelderen section
+    /// 3.3). Conservative.
+    HalfSpace,
+    /// Nearest point of the cluster's axis-aligned bounds: exact for orthographic grids, conservative
+    /// otherwise.
+    Box,
+}
+
+/// A plane by its unit normal, which points inwards, and its offset.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plane {
+    /// Unit, inwards.
+    pub normal: DVec3,
+    /// Signed distance of the origin, metres.
+    pub offset: f64,
+}
+
+impl Plane {
+    /// Signed distance of `point`, metres; positive inside.
+    pub fn distance(&self, point: DVec3) -> f64 {
+        self.normal.dot(point) + self.offset
+    }
+}
+
+impl Grid {
+    /// The planes of a cluster in clustering space: lower and upper x, lower and upper y, lowest and highest
+    /// z (in perspective grids that is far, near).
+    pub fn cell_planes(&self, cell: [u32; 3]) -> [Plane; 6] {
+        let (low, high) = self.cell_bounds(cell);
+        let axis = |normal: DVec3, through: DVec3| Plane { normal, offset: -normal.dot(through) };
+        let [left, right, bottom, top] = match self.space {
+            ClusterSpace::Perspective { frustum, .. } => self.side_planes(&frustum, cell),
+            ClusterSpace::Orthographic { .. } => {
+                [axis(DVec3::X, low), axis(-DVec3::X, high), axis(DVec3::Y, low), axis(-DVec3::Y, high)]
+            }
+        };
+        [left, right, bottom, top, axis(DVec3::Z, low), axis(-DVec3::Z, high)]
+    }
+
+    /// Through the apex: x >= t*(-z) for the left plane with tangent t, and so on.
+    fn side_planes(&self, frustum: &Frustum, cell: [u32; 3]) -> [Plane; 4] {
+        let step = [0, 1].map(|axis| frustum.size()[axis] / f64::from(self.dimensions[axis]));
+        let x = |index: u32| frustum.x0 + step[0] * f64::from(index);
+        let y = |index: u32| frustum.y0 + step[1] * f64::from(index);
+        let [ix, iy, _] = cell;
+        [
+            DVec3::new(1.0, 0.0, x(ix)),
+            -DVec3::new(1.0, 0.0, x(ix + 1)),
+            DVec3::new(0.0, 1.0, y(iy)),
+            -DVec3::new(0.0, 1.0, y(iy + 1)),
+        ]
+        .map(|normal| Plane { normal: normal.normalize(), offset: 0.0 })
+    }
+}
+
+/// A cluster made ready to be tested against many spheres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CellTest {
+    /// [`SphereTest::HalfSpace`], by the cluster's planes.
+    HalfSpace([Plane; 6]),
+    /// [`SphereTest::Box`], by its lowest and highest corner.
+    Box(DVec3, DVec3),
+}
+
+impl CellTest {
+    /// Prepares the cluster `cell` of `grid`.
+    pub fn new(test: SphereTest, grid: &Grid, cell: [u32; 3]) -> Self {
+        match test {
+            SphereTest::HalfSpace => Self::HalfSpace(grid.cell_planes(cell)),
+            SphereTest::Box => {
+                let (low, high) = grid.cell_bounds(cell);
+                Self::Box(low, high)
+            }
+        }
+    }
+
+    /// Signed margin in metres: at least 0 where the sphere meets the cluster. `center` in clustering space.
+    pub fn margin(&self, center: DVec3, radius: f64) -> f64 {
+        match self {
+            Self::HalfSpace(planes) => {
+                let inside = planes.iter().map(|plane| plane.distance(center)).fold(f64::INFINITY, f64::min);
+                inside + radius
+            }
+            Self::Box(low, high) => radius - center.distance(center.clamp(*low, *high)),
+        }
+    }
+}
+
+/// Margin of [`SphereTest::HalfSpace`] between a cluster and a sphere in clustering space, metres.
+pub fn half_space(grid: &Grid, cell: [u32; 3], center: DVec3, radius: f64) -> f64 {
+    CellTest::new(SphereTest::HalfSpace, grid, cell).margin(center, radius)
+}
+
+/// Margin of [`SphereTest::Box`] between a cluster and a sphere in clustering space, metres.
+pub fn axis_box(grid: &Grid, cell: [u32; 3], center: DVec3, radius: f64) -> f64 {
+    CellTest::new(SphereTest::Box, grid, cell).margin(center, radius)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::views::Pose;
+
+    fn orthographic() -> Grid {
+        let space = ClusterSpace::Orthographic { min: DVec3::ZERO, max: DVec3::splat(4.0) };
+        Grid { pose: Pose::IDENTITY, space, dimensions: [2, 2, 2] }
+    }
+
+    #[test]
+    fn the_box_test_is_exact_where_half_spaces_are_not() {
+        let (cell, beyond_corner) = ([0, 0, 0], DVec3::splat(2.8));
+        assert!(half_space(&orthographic(), cell, beyond_corner, 1.0) > 0.0);
+        assert!(axis_box(&orthographic(), cell, beyond_corner, 1.0) < 0.0);
+        assert!((axis_box(&orthographic(), cell, DVec3::new(1.0, 5.0, 1.0), 3.5) - 0.5).abs() < 1e-12);
+        assert_eq!(axis_box(&orthographic(), cell, DVec3::ONE, 1.5), 1.5);
+    }
+
+    #[test]
+    fn planes_touch_their_cells_corners_and_point_inwards() {
+        let frustum = Frustum { x0: -1.2, x1: 0.9, y0: -0.7, y1: 1.1, z0: -80.0, z1: -0.3 };
+        let space = ClusterSpace::Perspective { frustum, ratio: 0.5 };
+        let perspective = Grid { pose: Pose::IDENTITY, space, dimensions: [5, 3, 14] };
+        for (grid, cell) in [(perspective, [0, 2, 7]), (perspective, [4, 1, 0]), (orthographic(), [1, 0, 1])]
+        {
+            for plane in grid.cell_planes(cell) {
+                let distances = grid.cell_corners(cell).map(|corner| plane.distance(corner));
+                assert_eq!(distances.iter().filter(|d| d.abs() < 1e-9).count(), 4);
+                assert_eq!(distances.iter().filter(|d| **d > 1e-6).count(), 4);
+            }
+        }
+    }
+}
