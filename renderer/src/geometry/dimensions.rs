@@ -9,26 +9,38 @@ use glam::DVec3;
 /// that a grid does not change with the pose of the camera.
 const ROUNDING: f64 = 1e-10;
 
-/// Dimensions and, for perspective grids, the ratio d: slice k spans depths z1*(1+d)^k..z1*(1+d)^(k+1).
+/// More than enough for a quadratic convergence.
+const MAX_STEPS: u32 = 100;
+
+/// Dimensions of a perspective grid and its ratio d: slice k spans depths z1*(1+d)^k..z1*(1+d)^(k+1).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PerspectiveDimensions {
     pub dimensions: DVec3,
     pub ratio: f64,
 }
 
-/// Persp P: clusters of `pixels` squared on a screen of `resolution` pixels (Gelderen section 3.1).
-///
-/// The ratio is the mean of a cluster's two sides in tangents, so that clusters are about as deep as wide.
-pub fn from_pixels(frustum: &Frustum, resolution: [u32; 2], pixels: f64) -> PerspectiveDimensions {
-    let columns = f64::from(resolution[0]) / pixels;
-    let rows = f64::from(resolution[1]) / pixels;
-    let size = frustum.size();
-    let ratio = (size.x / columns + size.y / rows) / 2.0;
-    let slices = depth_span(frustum) / ratio.ln_1p();
-    PerspectiveDimensions {
-        dimensions: DVec3::new(round_up(columns), round_up(rows), round_up(slices)),
-        ratio,
+impl PerspectiveDimensions {
+    /// Slices about as deep as `side`, the side of a cluster in tangents, says. The ratio is then refitted, so
+    /// that a whole number of slices ends at the far plane.
+    fn new(columns: f64, rows: f64, frustum: &Frustum, side: f64) -> Self {
+        let depths = depth_span(frustum);
+        let slices = round_up(depths / side.ln_1p());
+        let dimensions = DVec3::new(round_up(columns), round_up(rows), slices);
+        Self { dimensions, ratio: (depths / slices).exp_m1() }
     }
+}
+
+/// Persp P: clusters of `pixels` squared on a screen of `resolution` pixels (Gelderen section 3.1).
+pub fn from_pixels(frustum: &Frustum, resolution: [u32; 2], pixels: f64) -> PerspectiveDimensions {
+    let [columns, rows] = resolution.map(|side| f64::from(side) / pixels);
+    PerspectiveDimensions::new(columns, rows, frustum, side_in_tangents(frustum, resolution, pixels))
+}
+
+/// The mean of the two sides of a cluster of Persp P, in tangents: clusters become about as deep as wide.
+pub fn side_in_tangents(frustum: &Frustum, resolution: [u32; 2], pixels: f64) -> f64 {
+    let [columns, rows] = resolution.map(|side| f64::from(side) / pixels);
+    let size = frustum.size();
+    (size.x / columns + size.y / rows) / 2.0
 }
 
 /// The average volume of a cluster of Persp P, cubic metres.
@@ -44,14 +56,10 @@ pub fn from_metres(extent: DVec3, metres: f64) -> DVec3 {
 /// A perspective grid over the whole of `frustum` whose clusters have about `volume` cubic metres on average
 /// (Gelderen equations 4.4 and 4.5).
 pub fn from_volume(frustum: &Frustum, volume: f64) -> PerspectiveDimensions {
-    let depths = depth_span(frustum);
-    let side = solve_ratio(3.0 * depths * volume / (frustum.z1.powi(3) - frustum.z0.powi(3)));
+    let cubes = frustum.z1.powi(3) - frustum.z0.powi(3);
+    let side = solve_side(3.0 * depth_span(frustum) * volume / cubes);
     let size = frustum.size();
-    let slices = round_up(depths / side.ln_1p());
-    PerspectiveDimensions {
-        dimensions: DVec3::new(round_up(size.x / side), round_up(size.y / side), slices),
-        ratio: (depths / slices).exp_m1(),
-    }
+    PerspectiveDimensions::new(size.x / side, size.y / side, frustum, side)
 }
 
 /// ln(far/near).
@@ -67,7 +75,7 @@ fn round_up(count: f64) -> f64 {
 ///
 /// The left side is convex and grows; at the start, the cube root, it is too small. So the first step
 /// overshoots, every further one comes down, and no step can fail.
-fn solve_ratio(right: f64) -> f64 {
+fn solve_side(right: f64) -> f64 {
     let mut d = right.cbrt();
     for _ in 0..MAX_STEPS {
         let log = d.ln_1p();
@@ -79,9 +87,6 @@ fn solve_ratio(right: f64) -> f64 {
     }
     d
 }
-
-/// Far more than quadratic convergence ever takes.
-const MAX_STEPS: u32 = 100;
 
 #[cfg(test)]
 mod tests {
@@ -100,7 +105,7 @@ mod tests {
         #[test]
         fn newton_solves_the_equation(exponent in -12.0..6.0f64) {
             let right = 10f64.powf(exponent);
-            let d = solve_ratio(right);
+            let d = solve_side(right);
             prop_assert!((d * d * d.ln_1p() / right - 1.0).abs() < 1e-10);
         }
 

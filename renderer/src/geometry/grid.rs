@@ -12,9 +12,9 @@ const RIM: f64 = 1e-9;
 pub enum ClusterSpace {
     /// Clusters divide the frustum evenly in tangents, and geometrically in depth (Gelderen equation 3.3).
     Perspective {
-        /// From the apex at the origin of clustering space. The last slice may reach beyond `z0`.
+        /// From the apex at the origin of clustering space.
         frustum: Frustum,
-        /// d: slice k spans depths z1*(1+d)^k..z1*(1+d)^(k+1).
+        /// d: slice k spans depths z1*(1+d)^k..z1*(1+d)^(k+1); the last one ends at `z0`.
         ratio: f64,
     },
     /// Clusters divide an axis-aligned box evenly.
@@ -178,7 +178,7 @@ mod tests {
         ] {
             assert_eq!(grid.cluster_of_local(outside), None, "{outside}");
         }
-        assert_eq!(grid.nearest_cluster(DVec3::new(9.0, -9.0, -99.0)), Some([2, 1, 3]));
+        assert_eq!(grid.nearest_cluster(DVec3::new(9.0, -9.0, -99.0)), Some([2, 0, 3]));
         assert_eq!(grid.nearest_cluster(DVec3::new(900.0, -900.0, -0.5)), Some([3, 0, 0]));
         assert_eq!(grid.cluster_of_local(DVec3::new(16.0, 8.0, -16.0)), Some([3, 1, 3]));
         assert_eq!(orthographic().cluster_of_local(DVec3::new(2.0, 4.0, 6.0)), Some([3, 2, 1]));

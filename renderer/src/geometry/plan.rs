@@ -62,7 +62,9 @@ impl Planner {
         if width == 0 || height == 0 {
             return Err(self.error(&format!("resolution {width}x{height} must not be zero")));
         }
-        views.iter().try_for_each(View::validate)
+        views.iter().enumerate().try_for_each(|(index, view)| {
+            view.validate().map_err(|error| self.error(&format!("view {index}: {error}")))
+        })
     }
 
     fn individual(&self, view: &View) -> Result<Grid> {

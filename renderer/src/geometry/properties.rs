@@ -1,1 +1,189 @@
+//! What must hold for any views: asymmetric, canted, one to four of them.
 
+use super::{ClusterSpace, Frustum, Grid, axis_box, half_space, plan};
+use crate::config::DisplacedVolume;
+use crate::methods::{Sharing, Space};
+use crate::views::{Pose, View};
+use glam::{DQuat, DVec3, EulerRot};
+use proptest::prelude::*;
+
+const RESOLUTION: [u32; 2] = [640, 720];
+
+fn frustum() -> impl Strategy<Value = Frustum> {
+    let side = || 0.3..1.6f64;
+    (side(), side(), side(), side(), 10.0..200.0f64, 0.05..1.0f64)
+        .prop_map(|(l, r, b, t, far, near)| Frustum { x0: -l, x1: r, y0: -b, y1: t, z0: -far, z1: -near })
+}
+
+/// A head anywhere, and eyes a little off it and canted a little against it.
+fn views() -> impl Strategy<Value = Vec<View>> {
+    let angles = |most: f64| (-most..most, -most..most, -most..most);
+    let turned = |(yaw, pitch, roll)| DQuat::from_euler(EulerRot::YXZ, yaw, pitch, roll);
+    let place = |most: f64| [-most..most, -most..most, -most..most].prop_map(DVec3::from_array);
+    let pose = move |metres: f64, angle: f64| {
+        (place(metres), angles(angle))
+            .prop_map(move |(position, angles)| Pose { position, rotation: turned(angles) })
+    };
+    let eye = (pose(0.1, 0.2), frustum());
+    (pose(80.0, 3.0), prop::collection::vec(eye, 1..=4)).prop_map(|(head, eyes)| {
+        eyes.into_iter().map(|(eye, frustum)| View { pose: head * eye, frustum }).collect()
+    })
+}
+
+fn space() -> impl Strategy<Value = Space> {
+    prop_oneof![
+        (16.0..200.0f64).prop_map(|pixels| Space::Persp { pixels }),
+        (1.0..20.0f64).prop_map(|metres| Space::Ortho { metres }),
+        (16.0..200.0f64, 1.0..256.0f64)
+            .prop_map(|(pixels, displacement)| Space::Displ { pixels, displacement }),
+    ]
+}
+
+fn sharing() -> impl Strategy<Value = Sharing> {
+    prop_oneof![Just(Sharing::Indi), Just(Sharing::Encl)]
+}
+
+fn volume() -> impl Strategy<Value = DisplacedVolume> {
+    prop_oneof![Just(DisplacedVolume::View), Just(DisplacedVolume::Own)]
+}
+
+/// Parts of the way from the lower to the upper bound on each axis.
+fn parts() -> impl Strategy<Value = DVec3> {
+    [0.0..=1.0f64, 0.0..=1.0f64, 0.0..=1.0f64].prop_map(DVec3::from_array)
+}
+
+/// The point of a view's frustum at some parts of its tangents and depths, in the world.
+fn point_in(view: &View, parts: DVec3) -> DVec3 {
+    let Frustum { x0, y0, z0, z1, .. } = view.frustum;
+    let tangents = view.frustum.size() * parts.truncate();
+    let distance = -z1 * (z0 / z1).powf(parts.z);
+    view.pose.transform_point(DVec3::new(x0 + tangents.x, y0 + tangents.y, -1.0) * distance)
+}
+
+/// Each view with the grid that serves it.
+fn with_grids<'a>(views: &'a [View], grids: &'a [Grid]) -> impl Iterator<Item = (&'a View, &'a Grid)> {
+    views.iter().enumerate().map(|(index, view)| (view, &grids[index.min(grids.len() - 1)]))
+}
+
+/// How far, in metres, a point of clustering space lies outside a cell's planes; rounding errors grow with
+/// the point's distance.
+fn outside(grid: &Grid, cell: [u32; 3], local: DVec3) -> f64 {
+    -half_space(grid, cell, local, 0.0) / (1.0 + local.length())
+}
+
+fn neighbours(grid: &Grid, cell: [u32; 3]) -> impl Iterator<Item = [u32; 3]> {
+    let dimensions = grid.dimensions;
+    (0..3).flat_map(move |axis| {
+        let shifted = move |by: i64| {
+            let index = i64::from(cell[axis]) + by;
+            let mut other = cell;
+            other[axis] = u32::try_from(index).ok().filter(|&i| i < dimensions[axis])?;
+            Some(other)
+        };
+        [shifted(-1), shifted(1)].into_iter().flatten()
+    })
+}
+
+proptest! {
+    #[test]
+    fn every_view_corner_lies_in_the_enclosing_grid(views in views(), space in space(), volume in volume()) {
+        let grids = plan(space, Sharing::Encl, &views, RESOLUTION, volume).unwrap();
+        prop_assert_eq!(grids.len(), 1);
+        for view in &views {
+            for corner in view.frustum.corners() {
+                prop_assert!(grids[0].cluster_of(view.pose.transform_point(corner)).is_some());
+            }
+        }
+    }
+
+    #[test]
+    fn every_point_seen_is_in_exactly_one_cluster(
+        views in views(), space in space(), sharing in sharing(), volume in volume(), parts in parts(),
+    ) {
+        let grids = plan(space, sharing, &views, RESOLUTION, volume).unwrap();
+        for (view, grid) in with_grids(&views, &grids) {
+            let local = grid.pose.inverse_transform_point(point_in(view, parts));
+            let cell = grid.cluster_of_local(local);
+            prop_assert!(cell.is_some(), "{local} has no cluster");
+            let cell = cell.unwrap();
+            prop_assert_eq!(grid.nearest_cluster(local), Some(cell));
+            prop_assert!(outside(grid, cell, local) < 1e-9);
+            let (low, high) = grid.cell_bounds(cell);
+            let slack = 1e-9 * (1.0 + local.length());
+            prop_assert!(local.cmpge(low - slack).all() && local.cmple(high + slack).all());
+            for other in neighbours(grid, cell) {
+                prop_assert!(outside(grid, other, local) > -1e-9, "also in {other:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn linear_indices_count_the_clusters(dimensions in [1..9u32, 1..9u32, 1..9u32]) {
+        let space = ClusterSpace::Orthographic { min: DVec3::ZERO, max: DVec3::ONE };
+        let grid = Grid { pose: Pose::IDENTITY, space, dimensions };
+        let count = u32::try_from(grid.cluster_count()).unwrap();
+        for linear in 0..count {
+            let cell = grid.cluster_at(linear);
+            prop_assert!(cell.iter().zip(dimensions).all(|(&index, size)| index < size));
+            prop_assert_eq!(grid.linear(cell), linear);
+        }
+    }
+
+    #[test]
+    fn no_test_misses_a_sphere_that_reaches_into_the_cell(
+        views in views(), space in space(), sharing in sharing(),
+        in_view in parts(), in_cell in parts(), towards in parts(), radius in 0.01..30.0f64,
+    ) {
+        let grid = plan(space, sharing, &views, RESOLUTION, DisplacedVolume::View).unwrap()[0];
+        let cell = grid.cluster_of(point_in(&views[0], in_view)).unwrap();
+        let point = grid.point_at(DVec3::from_array(cell.map(f64::from)) + in_cell);
+        let direction = (towards - 0.5).normalize_or(DVec3::X);
+        let center = point + direction * radius * in_view.x;
+        let slack = 1e-9 * (1.0 + point.length());
+        prop_assert!(half_space(&grid, cell, center, radius) >= -slack);
+        prop_assert!(axis_box(&grid, cell, center, radius) >= -slack);
+    }
+
+    #[test]
+    fn points_and_coordinates_are_inverse(
+        views in views(), space in space(), sharing in sharing(), parts in parts(),
+    ) {
+        let grid = plan(space, sharing, &views, RESOLUTION, DisplacedVolume::View).unwrap()[0];
+        let at = parts * DVec3::from_array(grid.dimensions.map(f64::from));
+        let back = grid.coordinates(grid.point_at(at)).unwrap();
+        prop_assert!((back - at).abs().max_element() < 1e-6, "{back} is not {at}");
+    }
+}
+
+#[test]
+fn what_cannot_be_planned_is_refused_with_the_methods_name() {
+    let frustum = Frustum::from_fov(1.0, RESOLUTION, 0.4, 100.0).unwrap();
+    let view = View { pose: Pose::IDENTITY, frustum };
+    let behind = View { pose: Pose { rotation: DQuat::from_rotation_y(3.0), ..Pose::IDENTITY }, frustum };
+    let upside_down = View { frustum: Frustum { y0: 1.0, y1: -1.0, ..frustum }, ..view };
+    let persp = |pixels: f64| Space::Persp { pixels };
+    let ortho = |metres: f64| Space::Ortho { metres };
+    let displ = |displacement: f64| Space::Displ { pixels: 64.0, displacement };
+    let cases: [(Space, &[View], [u32; 2], &str); 13] = [
+        (persp(0.0), &[view], RESOLUTION, "encl-persp-0: a size of 0"),
+        (persp(f64::NAN), &[view], RESOLUTION, "NaN"),
+        (ortho(-4.0), &[view], RESOLUTION, "-4"),
+        (ortho(f64::INFINITY), &[view], RESOLUTION, "inf"),
+        (displ(0.0), &[view], RESOLUTION, "encl-displ-64-0"),
+        (displ(f64::NAN), &[view], RESOLUTION, "NaN"),
+        (ortho(0.01), &[view], RESOLUTION, "encl-ortho-0.01"),
+        (ortho(1e-300), &[view], RESOLUTION, "clusters is more than 4294967295"),
+        (persp(0.001), &[view], RESOLUTION, "larger size"),
+        (persp(64.0), &[view, behind], RESOLUTION, "Ortho"),
+        (persp(64.0), &[view, upside_down], RESOLUTION, "bottom tangent"),
+        (persp(64.0), &[view], [0, 720], "0x720"),
+        (persp(64.0), &[], RESOLUTION, "no view"),
+    ];
+    for (space, views, resolution, words) in cases {
+        let planned = plan(space, Sharing::Encl, views, resolution, DisplacedVolume::View);
+        let message = planned.unwrap_err().to_string();
+        assert!(message.contains(words), "'{message}' does not say '{words}'");
+    }
+    let mirror = plan(ortho(4.0), Sharing::Encl, &[view, behind], RESOLUTION, DisplacedVolume::View);
+    assert!(mirror.is_ok(), "Ortho encloses any views");
+}

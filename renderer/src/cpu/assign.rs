@@ -1,0 +1,103 @@
+//! Light lists by brute force: every visible cluster against every light.
+
+use super::scan;
+use crate::geometry::{CellTest, Grid, SphereTest};
+use crate::lights::PointLight;
+use glam::DVec3;
+
+/// The light lists of all visible clusters, one behind the other.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LightLists {
+    /// Where the list of each visible cluster starts in `indices`, and last their total length.
+    pub offsets: Vec<u32>,
+    /// Indices of lights, ascending within each list.
+    pub indices: Vec<u32>,
+    /// Per visible cluster, the lights, ascending, so close to the boundary that f32 may decide otherwise.
+    pub borderline: Vec<Vec<u32>>,
+}
+
+impl LightLists {
+    /// The list of a visible cluster, by its position among the visible ones.
+    pub fn list(&self, visible_index: usize) -> &[u32] {
+        &self.indices[self.offsets[visible_index] as usize..self.offsets[visible_index + 1] as usize]
+    }
+}
+
+/// Assigns `lights` (world space, influence radius R1) to the `visible` clusters of `grid` (linear indices).
+///
+/// `epsilon`, in metres, is how small a margin makes a pair borderline.
+pub fn assign(
+    grid: &Grid,
+    visible: &[u32],
+    lights: &[PointLight],
+    test: SphereTest,
+    epsilon: f64,
+) -> LightLists {
+    let spheres: Vec<(DVec3, f64)> = lights
+        .iter()
+        .map(|light| DVec3::from_array(light.position.map(f64::from)))
+        .map(|world| grid.pose.inverse_transform_point(world))
+        .zip(lights.iter().map(|light| f64::from(light.r1)))
+        .collect();
+    let (mut lengths, mut indices, mut borderline) = (Vec::new(), Vec::new(), Vec::new());
+    for &cluster in visible {
+        let cell = CellTest::new(test, grid, grid.cluster_at(cluster));
+        let before = indices.len();
+        let mut close = Vec::new();
+        for (light, &(center, radius)) in (0u32..).zip(&spheres) {
+            let margin = cell.margin(center, radius);
+            if margin >= 0.0 {
+                indices.push(light);
+            }
+            if margin.abs() < epsilon {
+                close.push(light);
+            }
+        }
+        lengths.push((indices.len() - before) as u32);
+        borderline.push(close);
+    }
+    LightLists { offsets: scan(&lengths), indices, borderline }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::ClusterSpace;
+    use crate::views::Pose;
+
+    fn light(x: f32, r1: f32) -> PointLight {
+        PointLight { position: [x, 0.5, 10.5], tint: [1.0; 3], intensity: 1.0, cutoff: 1.0, r0: 0.1, r1 }
+    }
+
+    /// A row of four unit cells, ten metres up the Z axis.
+    fn grid() -> Grid {
+        let space = ClusterSpace::Orthographic { min: DVec3::ZERO, max: DVec3::new(4.0, 1.0, 1.0) };
+        Grid { pose: Pose::from_position(DVec3::Z * 10.0), space, dimensions: [4, 1, 1] }
+    }
+
+    #[test]
+    fn lists_follow_the_visible_clusters_with_ascending_lights() {
+        let lights = [light(3.5, 0.25), light(0.5, 1.0), light(2.25, 0.5), light(9.0, 1.0)];
+        for test in [SphereTest::Box, SphereTest::HalfSpace] {
+            let lists = assign(&grid(), &[0, 1, 3], &lights, test, 1e-4);
+            assert_eq!(lists.offsets, [0, 1, 3, 4]);
+            assert_eq!([lists.list(0), lists.list(1), lists.list(2)], [&[1][..], &[1, 2], &[0]]);
+            assert!(lists.borderline.iter().all(Vec::is_empty));
+        }
+    }
+
+    #[test]
+    fn a_light_near_the_boundary_is_borderline_on_either_side_of_it() {
+        let lights = [light(1.5, 0.50001), light(1.5, 0.49999), light(1.5, 0.6)];
+        let lists = assign(&grid(), &[0], &lights, SphereTest::Box, 1e-4);
+        assert_eq!(lists.list(0), [0, 2]);
+        assert_eq!(lists.borderline, [[0, 1]]);
+    }
+
+    #[test]
+    fn no_cluster_and_no_light_make_no_list() {
+        let lists = assign(&grid(), &[], &[light(0.0, 1.0)], SphereTest::Box, 1e-4);
+        assert_eq!((lists.offsets, lists.indices), (vec![0], vec![]));
+        assert_eq!(assign(&grid(), &[2], &[], SphereTest::HalfSpace, 1e-4).offsets, [0, 0]);
+    }
+}
