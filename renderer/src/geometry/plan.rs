@@ -154,8 +154,8 @@ impl Planner {
     /// The grid, once its clusters are known to fit the indices.
     fn grid(&self, pose: Pose, space: ClusterSpace, dimensions: DVec3) -> Result<Grid> {
         let count = dimensions.element_product();
-        // Not `>`: refuses NaN as well. The last index stays free to mean 'none'.
-        if !(count <= f64::from(u32::MAX)) {
+        // The index u32::MAX stays free to mean 'none'.
+        if !(1.0..=f64::from(u32::MAX)).contains(&count) {
             let DVec3 { x, y, z } = dimensions;
             return Err(self.error(&format!(
                 "a grid of {x} x {y} x {z} clusters is more than {}; choose a larger size",
