@@ -17,22 +17,25 @@ pub struct Enclosing {
     pub frustum: Frustum,
 }
 
-/// Encloses all `views` by a frustum whose apex lies on the Z axis of `head` (world from head).
+/// Encloses all `views`, at least one, by a frustum whose apex lies on the Z axis of `head` (world from head).
 ///
 /// In the XZ and in the YZ plane, every line through a far and a near corner that leaves all corners on one
 /// side is a candidate for a side plane; where the candidates meet the Z axis, the hindmost point is the
-/// apex, which therefore has no corner behind its sides. Its tangents and depths are those of the corners.
+/// apex. Views far apart may have no such line, or one that meets the axis amid them: they are seen from a
+/// distance. Tangents and depths are those of the corners.
 ///
 /// # Errors
-/// The views agree too little in direction: no enclosing frustum below 170 degrees.
+/// The views differ too much in direction: no frustum below 170 degrees holds them.
 pub fn enclosing(head: &Pose, views: &[View]) -> Result<Enclosing> {
     let corners = Corners::new(head, views);
-    corners.apex().map(|apex| corners.seen_from(apex)).filter(is_narrow_enough).ok_or_else(|| {
-        Error::input(format!(
+    if !corners.agree_in_direction() {
+        return Err(Error::input(format!(
             "the views differ too much in direction: no frustum below {WIDEST_DEGREES} degrees encloses \
              them; use an Ortho method (such as encl-ortho-4), which needs none"
-        ))
-    })
+        )));
+    }
+    let tight = corners.tight_apex().map(|apex| corners.seen_from(apex)).filter(is_narrow_enough);
+    Ok(tight.unwrap_or_else(|| corners.seen_from(corners.distant_apex())))
 }
 
 /// The corners of all views, head space.
@@ -57,12 +60,30 @@ impl Corners {
         self.near.iter().chain(&self.far).copied()
     }
 
+    /// Whether the edges of all frusta, near corner to far corner, point forward within the widest angle.
+    fn agree_in_direction(&self) -> bool {
+        let edges = || self.near.iter().zip(&self.far).map(|(near, far)| *far - *near);
+        // Off -Z; beyond a right angle for an edge that points backwards.
+        let spread = |sideways: fn(DVec3) -> f64| {
+            let angles = || edges().map(|edge| sideways(edge).atan2(-edge.z));
+            highest(angles()) + highest(angles().map(|angle| -angle))
+        };
+        let widest = WIDEST_DEGREES.to_radians();
+        spread(|edge| edge.x) < widest && spread(|edge| edge.y) < widest
+    }
+
     /// The hindmost candidate in both planes that has every corner in front of it.
-    fn apex(&self) -> Option<f64> {
-        let nearest = self.iter().map(|corner| corner.z).fold(f64::NEG_INFINITY, f64::max);
+    fn tight_apex(&self) -> Option<f64> {
+        let nearest = highest(self.iter().map(|corner| corner.z));
         let in_xz = candidates(self, |corner| DVec2::new(corner.x, corner.z));
         let in_yz = candidates(self, |corner| DVec2::new(corner.y, corner.z));
         in_xz.into_iter().chain(in_yz).filter(|&apex| apex > nearest).reduce(f64::max)
+    }
+
+    /// As far behind all corners as they reach sideways: no tangent exceeds 1.
+    fn distant_apex(&self) -> f64 {
+        let nearest = highest(self.iter().map(|corner| corner.z));
+        nearest + highest(self.iter().map(|corner| corner.x.abs().max(corner.y.abs())))
     }
 
     fn seen_from(&self, apex: f64) -> Enclosing {
@@ -75,6 +96,10 @@ impl Corners {
         let frustum = Frustum { x0: low.x, x1: high.x, y0: low.y, y1: high.y, z0: low.z, z1: high.z };
         Enclosing { apex, frustum }
     }
+}
+
+fn highest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Where the lines that touch all corners from outside meet the Z axis, in the plane that `flat` picks.
@@ -147,5 +172,17 @@ mod tests {
             let message = enclosing(&head_space(&views), &views).unwrap_err().to_string();
             assert!(message.contains("Ortho") && message.contains("170"), "{message}");
         }
+    }
+
+    #[test]
+    fn views_whose_sides_converge_are_seen_from_a_distance() {
+        let frustum = Frustum { x0: -0.3, x1: 0.3, y0: -0.3, y1: 0.3, z0: -20.0, z1: -5.0 };
+        let inwards = |side: f64| {
+            let rotation = DQuat::from_rotation_y(0.6 * side) * DQuat::from_rotation_x(-0.6 * side);
+            View { pose: Pose { position: DVec3::new(20.0, 20.0, 0.0) * side, rotation }, frustum }
+        };
+        let Enclosing { apex, frustum } = enclosing(&Pose::IDENTITY, &[inwards(-1.0), inwards(1.0)]).unwrap();
+        assert!(apex > 0.0 && frustum.validate().is_ok(), "{apex} {frustum:?}");
+        assert!(frustum.x0 >= -1.0 && frustum.x1 <= 1.0 && frustum.y0 >= -1.0 && frustum.y1 <= 1.0);
     }
 }

@@ -127,6 +127,26 @@ mod tests {
     }
 
     #[test]
+    fn half_spaces_answer_with_the_distance_to_the_moved_out_planes() {
+        let cell = [1, 0, 0];
+        for (center, margin) in [
+            (DVec3::new(1.0, 1.0, 1.0), 0.5),
+            (DVec3::new(5.0, 1.0, 1.0), 0.5),
+            (DVec3::new(3.0, 4.0, 1.0), -0.5),
+            (DVec3::new(3.0, 1.0, -1.5), 0.0),
+            (DVec3::new(3.0, 1.0, 1.0), 2.5),
+        ] {
+            assert!((half_space(&orthographic(), cell, center, 1.5) - margin).abs() < 1e-12);
+        }
+        let frustum = Frustum { x0: -1.0, x1: 1.0, y0: -1.0, y1: 1.0, z0: -16.0, z1: -1.0 };
+        let space = ClusterSpace::Perspective { frustum, ratio: 3.0 };
+        let perspective = Grid { pose: Pose::IDENTITY, space, dimensions: [2, 2, 2] };
+        let beside = DVec3::new(2.0 + 2f64.sqrt(), 0.5, -2.0);
+        assert!((half_space(&perspective, [1, 1, 0], beside, 1.25) - 0.25).abs() < 1e-12, "45 degrees");
+        assert!((half_space(&perspective, [1, 1, 1], DVec3::new(1.0, 1.0, -3.0), 1.25) - 0.25).abs() < 1e-12);
+    }
+
+    #[test]
     fn planes_touch_their_cells_corners_and_point_inwards() {
         let frustum = Frustum { x0: -1.2, x1: 0.9, y0: -0.7, y1: 1.1, z0: -80.0, z1: -0.3 };
         let space = ClusterSpace::Perspective { frustum, ratio: 0.5 };
