@@ -1,11 +1,32 @@
 //! Run configuration: typed, defaulted, unknown fields refused.
+//!
+//! Three layers, each over the one before: the built-in defaults, a JSON file, the flags. One declaration,
+//! [`Layer`], is the file's format, its schema and the flags at once.
+
+mod file;
+mod frames;
+mod layer;
+pub(crate) mod nearest;
+mod schema;
+mod values;
+
+#[cfg(test)]
+mod tests;
+
+pub use layer::Layer;
+pub use schema::json_schema;
 
 use crate::lights::Attenuation;
-use crate::methods::MethodSpec;
-use std::path::PathBuf;
+use crate::methods::{MethodSpec, Sharing, Space};
+use crate::{Error, Result};
+use clap::ValueEnum;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
 
 /// N lights of one intensity, cut-off and near radius.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(try_from = "values::RawLighting")]
 pub struct Lighting {
     /// How many.
     pub count: u32,
@@ -18,7 +39,8 @@ pub struct Lighting {
 }
 
 /// Where the visible clusters of opaque and masked geometry are marked from (METHODS section 3).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum Marking {
     /// From the depth buffer, per sample; with MSAA, shading runs per sample too.
     Depth,
@@ -27,7 +49,8 @@ pub enum Marking {
 }
 
 /// Which frustum sizes the clusters of Displ (METHODS section 2.3).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum DisplacedVolume {
     /// The average cluster volume of Persp on the undisplaced frustum.
     View,
@@ -36,7 +59,8 @@ pub enum DisplacedVolume {
 }
 
 /// Frames first..last by step; `last` excluded.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(try_from = "String")]
 pub struct FrameRange {
     /// First frame.
     pub first: u32,
@@ -49,14 +73,15 @@ pub struct FrameRange {
 /// Which frames' images are written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ExrFrames {
-    /// These.
+    /// These, ascending.
     List(Vec<u32>),
     /// Every rendered one.
     All,
 }
 
 /// Which scopes get timestamps in temporal runs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum Scopes {
     /// Every stage.
     All,
@@ -64,16 +89,28 @@ pub enum Scopes {
     Frame,
 }
 
-/// One fully resolved run configuration.
+/// Where the lights of one run come from.
 #[derive(Debug, Clone, PartialEq)]
+pub enum LightsFrom {
+    /// Falling lights.
+    Rain(Lighting),
+    /// Static lights of a CSV file.
+    File(PathBuf),
+    /// The scene's own point lights.
+    Scene,
+}
+
+/// One fully resolved run configuration. Serialized, it is a configuration file again.
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Config {
     /// Built-in name or path of a scene.
     pub scene: String,
     /// Bundled name or path of a recording.
     pub recording: String,
     /// Methods, each a run.
+    #[serde(serialize_with = "values::ser::methods")]
     pub methods: Vec<MethodSpec>,
-    /// Lightings, each a run of every method.
+    /// Lightings of the rain, each a run of every method; empty where lights come from a file or the scene.
     pub lights: Vec<Lighting>,
     /// Static lights from a CSV instead of the rain.
     pub lights_file: Option<PathBuf>,
@@ -90,6 +127,7 @@ pub struct Config {
     /// Frames whose EXR and PNG images are written.
     pub exr: ExrFrames,
     /// Attenuation function.
+    #[serde(serialize_with = "values::ser::attenuation")]
     pub attenuation: Attenuation,
     /// Marking strategy.
     pub marking: Marking,
@@ -109,4 +147,112 @@ pub struct Config {
     pub shaders: Option<PathBuf>,
     /// Which scopes get timestamps.
     pub scopes: Scopes,
+}
+
+impl Default for Config {
+    /// The default replay: the street in HTC Vive stereo under 1000 lights, by the thesis's six tuned methods.
+    fn default() -> Self {
+        Self {
+            scene: "street".into(),
+            recording: "bistro-vive".into(),
+            methods: tuned_methods(),
+            lights: vec![Lighting::with_count(1000)],
+            lights_file: None,
+            scene_lights: false,
+            resolution: [320, 180],
+            msaa: 1,
+            frames: FrameRange { first: 0, end: None, step: 40 },
+            runs: 2,
+            exr: ExrFrames::List(Vec::new()),
+            attenuation: Attenuation::PhyRed2,
+            marking: Marking::Depth,
+            displaced_volume: DisplacedVolume::View,
+            out: "out".into(),
+            visible_cluster_capacity: 1 << 14,
+            light_index_capacity: 1 << 20,
+            device: None,
+            validate: false,
+            shaders: None,
+            scopes: Scopes::All,
+        }
+    }
+}
+
+/// Persp 64, Ortho 4 and Displ 64 32, each Indi and Encl (Gelderen chapter 6).
+fn tuned_methods() -> Vec<MethodSpec> {
+    let spaces = [
+        Space::Persp { pixels: 64.0 },
+        Space::Ortho { metres: 4.0 },
+        Space::Displ { pixels: 64.0, displacement: 32.0 },
+    ];
+    let both = [Sharing::Indi, Sharing::Encl];
+    spaces.iter().flat_map(|&space| both.map(|sharing| MethodSpec::Clustered { sharing, space })).collect()
+}
+
+impl Config {
+    /// The defaults, under the file if one is given, under the flags.
+    ///
+    /// # Errors
+    /// The file cannot be read or holds something wrong (said with line and column), or the result is not a
+    /// configuration that can be run.
+    pub fn resolve(file: Option<&Path>, flags: Layer) -> Result<Self> {
+        let mut config = Self::default();
+        if let Some(path) = file {
+            config.apply(file::read(path)?).map_err(|message| Error::file(path, message))?;
+            config.check().map_err(|error| Error::file(path, error))?;
+        }
+        config.apply(flags).map_err(Error::Input)?;
+        config.check()?;
+        Ok(config)
+    }
+
+    /// Refuses values out of range, whoever put them there.
+    ///
+    /// # Errors
+    /// Names the first field at fault.
+    pub fn check(&self) -> Result<()> {
+        let at = |field: &'static str| move |message: String| Error::Input(format!("{field}: {message}"));
+        values::check_text(self.scene.clone()).map_err(at("scene"))?;
+        values::check_text(self.recording.clone()).map_err(at("recording"))?;
+        values::check_methods(self.methods.clone()).map_err(at("methods"))?;
+        values::check_lights(self.lights.clone()).map_err(at("lights"))?;
+        for lighting in &self.lights {
+            lighting.check().map_err(at("lights"))?;
+        }
+        if self.lights_from().is_empty() {
+            return Err(at("lights")("no lighting: give at least one, such as 1000".into()));
+        }
+        values::check_resolution(self.resolution).map_err(at("resolution"))?;
+        values::check_msaa(self.msaa).map_err(at("msaa"))?;
+        self.frames.check().map_err(at("frames"))?;
+        values::check_path(&self.out).map_err(at("out"))?;
+        values::check_capacity(self.visible_cluster_capacity).map_err(at("visible_cluster_capacity"))?;
+        values::check_capacity(self.light_index_capacity).map_err(at("light_index_capacity"))?;
+        for (field, path) in [("lights_file", &self.lights_file), ("shaders", &self.shaders)] {
+            path.as_deref().map_or(Ok(()), values::check_path).map_err(at(field))?;
+        }
+        self.device.clone().map_or(Ok(String::new()), values::check_text).map_err(at("device"))?;
+        Ok(())
+    }
+
+    /// Where lights come from: every lighting of the rain, or the file, or the scene.
+    pub fn lights_from(&self) -> Vec<LightsFrom> {
+        if let Some(path) = &self.lights_file {
+            return vec![LightsFrom::File(path.clone())];
+        }
+        if self.scene_lights {
+            return vec![LightsFrom::Scene];
+        }
+        self.lights.iter().copied().map(LightsFrom::Rain).collect()
+    }
+
+    /// The frames to render of a recording with `available` frames, ascending.
+    ///
+    /// # Errors
+    /// The range reaches beyond the recording, or leaves out a frame whose images are asked for.
+    pub fn frame_numbers(&self, available: u32) -> Result<Vec<u32>> {
+        let frames = self.frames.frames(available)?;
+        self.exr.check_rendered(&frames)?;
+        Ok(frames)
+    }
 }

@@ -1,0 +1,193 @@
+//! One layer of a configuration: what a file or the flags say, every field optional.
+
+use super::values::{self, de};
+use super::{Config, DisplacedVolume, ExrFrames, FrameRange, Lighting, Marking, Scopes, schema};
+use crate::lights::Attenuation;
+use crate::methods::MethodSpec;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::path::PathBuf;
+
+/// What one source says of a [`Config`]. The same declaration is the JSON file, its schema and the flags,
+/// so that every field is a flag and every flag a field.
+#[derive(Debug, Clone, Default, PartialEq, clap::Args, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(
+    title = "manylight configuration",
+    description = "What to replay and measure. Every field may be left out."
+)]
+pub struct Layer {
+    /// Where editors find the schema of this file; otherwise without meaning.
+    #[arg(skip)]
+    #[serde(rename = "$schema")]
+    pub schema: Option<String>,
+
+    /// Scene: `street`, `temple`, or the path of a .gltf, .glb or .obj file.
+    #[arg(long, value_name = "NAME|PATH")]
+    #[serde(default, deserialize_with = "de::text")]
+    #[schemars(length(min = 1))]
+    pub scene: Option<String>,
+
+    /// Recording: `bistro`, `suntem`, `bistro-vive`, `suntem-vive`, or the path of a JSON file.
+    #[arg(long, value_name = "NAME|PATH")]
+    #[serde(default, deserialize_with = "de::text")]
+    #[schemars(length(min = 1))]
+    pub recording: Option<String>,
+
+    /// Methods, each a run: {indi,encl}-persp-PIXELS, {indi,encl}-ortho-METRES,
+    /// {indi,encl}-displ-PIXELS-METRES, or all-lights. The flag is repeated for several.
+    #[arg(long = "method", value_name = "METHOD", value_parser = values::method)]
+    #[serde(default, deserialize_with = "de::methods")]
+    #[schemars(schema_with = "schema::methods")]
+    pub methods: Option<Vec<MethodSpec>>,
+
+    /// Falling lights: how many, intensity I (100), cut-off I0 (0.5), near radius R0 (0.1 m). Each lighting is
+    /// a run of every method; the flag is repeated for several.
+    #[arg(long, value_name = "N[,I,I0,R0]")]
+    #[serde(default, deserialize_with = "de::lights")]
+    #[schemars(with = "Option<Vec<Lighting>>")]
+    pub lights: Option<Vec<Lighting>>,
+
+    /// Static lights from a CSV file (columns `x,y,z,r,g,b,i,i0,r0` and maybe `r1`) instead of falling ones.
+    #[arg(long, value_name = "FILE.csv")]
+    pub lights_file: Option<PathBuf>,
+
+    /// The scene's own point lights (KHR_lights_punctual) instead of falling ones.
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
+    pub scene_lights: Option<bool>,
+
+    /// Width and height of each view, pixels.
+    #[arg(long, value_name = "WxH", value_parser = values::resolution)]
+    #[serde(default, deserialize_with = "de::resolution")]
+    #[schemars(schema_with = "schema::resolution")]
+    pub resolution: Option<[u32; 2]>,
+
+    /// Samples a pixel, 1 or 4.
+    #[arg(long, value_name = "1|4", value_parser = values::msaa)]
+    #[serde(default, deserialize_with = "de::msaa")]
+    #[schemars(schema_with = "schema::msaa")]
+    pub msaa: Option<u32>,
+
+    /// Frames to render: A..B/STEP leaves B out; also A.., ..B, /STEP, or one number.
+    #[arg(long, value_name = "A..B/STEP")]
+    #[serde(default)]
+    #[schemars(schema_with = "schema::frames")]
+    pub frames: Option<FrameRange>,
+
+    /// Temporal runs, in which stages are timed; 0 leaves the counting run alone.
+    #[arg(long, value_name = "N")]
+    pub runs: Option<u32>,
+
+    /// Frames whose EXR and PNG images are written: numbers with commas between, `all` or `none`.
+    #[arg(long, value_name = "LIST|all|none")]
+    #[serde(default)]
+    #[schemars(schema_with = "schema::exr")]
+    pub exr: Option<ExrFrames>,
+
+    /// How a light fades with distance: phy, red, smo, phy_red_1, phy_red_2, phy_smo_1, phy_smo_2, lin or stp.
+    #[arg(long, value_name = "NAME", value_parser = values::attenuation)]
+    #[serde(default, deserialize_with = "de::attenuation")]
+    #[schemars(schema_with = "schema::attenuation")]
+    pub attenuation: Option<Attenuation>,
+
+    /// What the visible clusters of opaque and masked geometry are marked from.
+    #[arg(long, value_enum)]
+    pub marking: Option<Marking>,
+
+    /// Which frustum sizes the clusters of Displ.
+    #[arg(long, value_enum)]
+    pub displaced_volume: Option<DisplacedVolume>,
+
+    /// Output directory.
+    #[arg(long, value_name = "DIR")]
+    #[schemars(length(min = 1))]
+    pub out: Option<PathBuf>,
+
+    /// Visible clusters that a clustering's buffers hold at first; they grow where a frame needs more.
+    #[arg(long, value_name = "N", value_parser = values::capacity)]
+    #[serde(default, deserialize_with = "de::capacity")]
+    #[schemars(range(min = 1))]
+    pub visible_cluster_capacity: Option<u32>,
+
+    /// Light indices that a clustering's buffers hold at first; they grow where a frame needs more.
+    #[arg(long, value_name = "N", value_parser = values::capacity)]
+    #[serde(default, deserialize_with = "de::capacity")]
+    #[schemars(range(min = 1))]
+    pub light_index_capacity: Option<u32>,
+
+    /// Device, by a part of its name or by its index in `manylight devices`.
+    #[arg(long, value_name = "NAME|INDEX")]
+    #[serde(default, deserialize_with = "de::text")]
+    #[schemars(length(min = 1))]
+    pub device: Option<String>,
+
+    /// Turn the validation layers on, with synchronization validation; any message fails the run.
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
+    pub validate: Option<bool>,
+
+    /// Read the shader sources from this directory instead of from the program.
+    #[arg(long, value_name = "DIR")]
+    pub shaders: Option<PathBuf>,
+
+    /// Which stages are timed: all, or the frame as a whole, which shows what timing itself costs.
+    #[arg(long, value_enum)]
+    pub scopes: Option<Scopes>,
+}
+
+impl Config {
+    /// Lays a layer over this configuration: what it gives replaces what was there. The three fields that say
+    /// where lights come from count as one.
+    pub(super) fn apply(&mut self, layer: Layer) -> Result<(), String> {
+        self.apply_lights(&layer)?;
+        set(&mut self.scene, layer.scene);
+        set(&mut self.recording, layer.recording);
+        set(&mut self.methods, layer.methods);
+        set(&mut self.resolution, layer.resolution);
+        set(&mut self.msaa, layer.msaa);
+        set(&mut self.frames, layer.frames);
+        set(&mut self.runs, layer.runs);
+        set(&mut self.exr, layer.exr);
+        set(&mut self.attenuation, layer.attenuation);
+        set(&mut self.marking, layer.marking);
+        set(&mut self.displaced_volume, layer.displaced_volume);
+        set(&mut self.out, layer.out);
+        set(&mut self.visible_cluster_capacity, layer.visible_cluster_capacity);
+        set(&mut self.light_index_capacity, layer.light_index_capacity);
+        set(&mut self.device, layer.device.map(Some));
+        set(&mut self.validate, layer.validate);
+        set(&mut self.shaders, layer.shaders.map(Some));
+        set(&mut self.scopes, layer.scopes);
+        Ok(())
+    }
+
+    fn apply_lights(&mut self, layer: &Layer) -> Result<(), String> {
+        let lights = layer.lights.clone().filter(|lights| !lights.is_empty());
+        let scene = layer.scene_lights == Some(true);
+        match (lights, layer.lights_file.clone(), scene) {
+            (Some(lights), None, false) => self.set_lights(lights, None, false),
+            (None, Some(file), false) => self.set_lights(Vec::new(), Some(file), false),
+            (None, None, true) => self.set_lights(Vec::new(), None, true),
+            (None, None, false) if layer.lights.is_some() => self.set_lights(Vec::new(), None, false),
+            (None, None, false) if layer.scene_lights == Some(false) && self.scene_lights => {
+                self.set_lights(Self::default().lights, None, false);
+            }
+            (None, None, false) => {}
+            _ => {
+                return Err(
+                    "lights, lights_file and scene_lights exclude each other: give one of them".into()
+                );
+            }
+        }
+        Ok(())
+    }
+
+    fn set_lights(&mut self, lights: Vec<Lighting>, file: Option<PathBuf>, scene: bool) {
+        (self.lights, self.lights_file, self.scene_lights) = (lights, file, scene);
+    }
+}
+
+fn set<T>(field: &mut T, value: Option<T>) {
+    if let Some(value) = value {
+        *field = value;
+    }
+}

@@ -1,0 +1,73 @@
+//! The JSON Schema of configuration files, generated from [`Layer`].
+
+use super::values::{ATTENUATIONS, MAX_RESOLUTION};
+use super::{Config, Layer};
+use schemars::{Schema, SchemaGenerator, json_schema};
+use serde_json::Value;
+
+/// The schema, with the built-in defaults in it, as `configs/manylight.schema.json` holds it.
+pub fn json_schema() -> Value {
+    let mut schema = schemars::schema_for!(Layer).to_value();
+    // By way of text: a single-precision 0.1 is written 0.1.
+    let defaults = serde_json::to_string(&Config::default()).unwrap_or_default();
+    let defaults: Value = serde_json::from_str(&defaults).unwrap_or_default();
+    if let Some(properties) = schema.get_mut("properties").and_then(Value::as_object_mut) {
+        for (name, property) in properties {
+            let Some(property) = property.as_object_mut() else { continue };
+            match defaults.get(name).filter(|default| !default.is_null()) {
+                Some(default) => property.insert("default".into(), default.clone()),
+                None => property.remove("default"),
+            };
+        }
+    }
+    schema
+}
+
+pub(super) fn methods(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({
+        "type": ["array", "null"],
+        "minItems": 1,
+        "uniqueItems": true,
+        "items": {
+            "type": "string",
+            "pattern": r"^(all-lights|(indi|encl)-(persp|ortho|displ-[0-9.]+)-[0-9.]+)$",
+            "examples": ["indi-persp-64", "encl-ortho-4", "indi-displ-64-32", "all-lights"]
+        }
+    })
+}
+
+pub(super) fn resolution(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({
+        "type": ["array", "null"],
+        "minItems": 2,
+        "maxItems": 2,
+        "items": { "type": "integer", "minimum": 1, "maximum": MAX_RESOLUTION }
+    })
+}
+
+pub(super) fn msaa(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({ "enum": [1, 4, null] })
+}
+
+pub(super) fn frames(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({
+        "type": ["string", "null"],
+        "pattern": r"^([0-9]*\.\.[0-9]*(/[1-9][0-9]*)?|/[1-9][0-9]*|[0-9]+)$",
+        "examples": ["..", "300..600/40", "/40", "580"]
+    })
+}
+
+pub(super) fn exr(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({
+        "anyOf": [
+            { "type": "array", "items": { "type": "integer", "minimum": 0 } },
+            { "enum": ["all", "none", null] }
+        ]
+    })
+}
+
+pub(super) fn attenuation(_: &mut SchemaGenerator) -> Schema {
+    let names: Vec<Value> =
+        ATTENUATIONS.iter().map(|name| name.to_string().into()).chain([Value::Null]).collect();
+    json_schema!({ "enum": names })
+}

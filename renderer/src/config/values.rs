@@ -1,0 +1,294 @@
+//! Single values: how flags spell them, what is in range, how JSON carries them. Each rule is stated once
+//! here and serves flags and files alike.
+
+use super::{Lighting, LightsFrom};
+use crate::lights::Attenuation;
+use crate::methods::MethodSpec;
+use schemars::JsonSchema;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serializer};
+use std::fmt;
+use std::path::Path;
+use std::str::FromStr;
+
+/// Widest and highest view, pixels.
+pub(super) const MAX_RESOLUTION: u32 = 16384;
+
+/// All attenuation functions, in the order of METHODS section 5.
+pub(super) const ATTENUATIONS: [Attenuation; 9] = [
+    Attenuation::Phy,
+    Attenuation::Red,
+    Attenuation::Smo,
+    Attenuation::PhyRed1,
+    Attenuation::PhyRed2,
+    Attenuation::PhySmo1,
+    Attenuation::PhySmo2,
+    Attenuation::Lin,
+    Attenuation::Stp,
+];
+
+/// Reads a method's name.
+pub(super) fn method(text: &str) -> Result<MethodSpec, String> {
+    text.parse::<MethodSpec>().map_err(|error| error.to_string())
+}
+
+/// Reads an attenuation function's name.
+pub(super) fn attenuation(text: &str) -> Result<Attenuation, String> {
+    let names = ATTENUATIONS.map(|attenuation| attenuation.to_string());
+    let found = ATTENUATIONS.into_iter().zip(&names).find(|(_, name)| *name == text);
+    found.map(|(attenuation, _)| attenuation).ok_or_else(|| {
+        let names = names.each_ref().map(String::as_str);
+        format!("`{text}` is no attenuation function{}", super::nearest::hint(text, &names))
+    })
+}
+
+/// Reads `WxH`.
+pub(super) fn resolution(text: &str) -> Result<[u32; 2], String> {
+    let wrong = || format!("`{text}` is no resolution such as 1280x720");
+    let (width, height) = text.split_once('x').ok_or_else(wrong)?;
+    let number = |part: &str| part.parse::<u32>().map_err(|_| wrong());
+    check_resolution([number(width)?, number(height)?])
+}
+
+/// Refuses views without pixels and larger than any device renders.
+pub(super) fn check_resolution(resolution: [u32; 2]) -> Result<[u32; 2], String> {
+    if resolution.iter().all(|side| (1..=MAX_RESOLUTION).contains(side)) {
+        return Ok(resolution);
+    }
+    let [width, height] = resolution;
+    Err(format!("{width}x{height} pixels: each side is from 1 to {MAX_RESOLUTION}"))
+}
+
+/// Reads a number of samples a pixel.
+pub(super) fn msaa(text: &str) -> Result<u32, String> {
+    check_msaa(text.parse().map_err(|_| format!("`{text}` is neither 1 nor 4"))?)
+}
+
+/// Refuses sample counts other than 1 and 4.
+pub(super) fn check_msaa(samples: u32) -> Result<u32, String> {
+    if matches!(samples, 1 | 4) {
+        Ok(samples)
+    } else {
+        Err(format!("{samples} samples a pixel: only 1 or 4"))
+    }
+}
+
+/// Refuses buffers that hold nothing.
+pub(super) fn check_capacity(capacity: u32) -> Result<u32, String> {
+    if capacity > 0 { Ok(capacity) } else { Err("a capacity of 0: it is at least 1".into()) }
+}
+
+/// Reads a buffer capacity.
+pub(super) fn capacity(text: &str) -> Result<u32, String> {
+    check_capacity(text.parse().map_err(|_| format!("`{text}` is no whole number from 1 to {}", u32::MAX))?)
+}
+
+/// Refuses an empty list of methods and one that names a method twice.
+pub(super) fn check_methods(methods: Vec<MethodSpec>) -> Result<Vec<MethodSpec>, String> {
+    if methods.is_empty() {
+        return Err("no method: name at least one, such as indi-persp-64".into());
+    }
+    match first_twin(&methods) {
+        Some(twin) => Err(format!("method {twin} is named twice")),
+        None => Ok(methods),
+    }
+}
+
+/// Refuses a lighting that is given twice.
+pub(super) fn check_lights(lights: Vec<Lighting>) -> Result<Vec<Lighting>, String> {
+    match first_twin(&lights) {
+        Some(twin) => Err(format!("lights {twin} are given twice")),
+        None => Ok(lights),
+    }
+}
+
+fn first_twin<T: PartialEq>(items: &[T]) -> Option<&T> {
+    items.iter().enumerate().find(|(i, item)| items[..*i].contains(item)).map(|(_, item)| item)
+}
+
+/// Refuses text that names nothing.
+pub(super) fn check_text(text: String) -> Result<String, String> {
+    if text.trim().is_empty() { Err("empty: it must name something".into()) } else { Ok(text) }
+}
+
+/// Refuses a path that names nothing.
+pub(super) fn check_path(path: &Path) -> Result<(), String> {
+    if path.as_os_str().is_empty() { Err("empty: it must name a file or directory".into()) } else { Ok(()) }
+}
+
+/// A lighting as JSON carries it: all but the count may be left out.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object with a count, and maybe intensity, cutoff and r0")]
+pub(super) struct RawLighting {
+    /// How many lights.
+    #[schemars(range(min = 1))]
+    count: u32,
+    /// Intensity I.
+    #[serde(default = "Lighting::default_intensity")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    intensity: f64,
+    /// Intensity cut-off I0; lights reach R1 = sqrt(I/I0) metres.
+    #[serde(default = "Lighting::default_cutoff")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    cutoff: f64,
+    /// Near radius R0, metres, below R1.
+    #[serde(default = "Lighting::default_r0")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    r0: f64,
+}
+
+impl TryFrom<RawLighting> for Lighting {
+    type Error = String;
+
+    fn try_from(raw: RawLighting) -> Result<Self, String> {
+        let RawLighting { count, intensity, cutoff, r0 } = raw;
+        Self { count, intensity: intensity as f32, cutoff: cutoff as f32, r0: r0 as f32 }.check()
+    }
+}
+
+impl Lighting {
+    /// `count` lights of the intensity, cut-off and near radius that are used where none are given.
+    pub fn with_count(count: u32) -> Self {
+        Self {
+            count,
+            intensity: Self::default_intensity() as f32,
+            cutoff: Self::default_cutoff() as f32,
+            r0: Self::default_r0() as f32,
+        }
+    }
+
+    fn default_intensity() -> f64 {
+        100.0
+    }
+
+    fn default_cutoff() -> f64 {
+        0.5
+    }
+
+    fn default_r0() -> f64 {
+        0.1
+    }
+
+    /// Influence radius R1 = sqrt(I/I0), metres.
+    pub fn r1(&self) -> f32 {
+        (self.intensity / self.cutoff).sqrt()
+    }
+
+    /// Refuses zero lights, values that are not positive and finite, and R0 not below R1.
+    pub(super) fn check(self) -> Result<Self, String> {
+        if self.count == 0 {
+            return Err("0 lights: the count is at least 1".into());
+        }
+        for (name, value) in [("intensity", self.intensity), ("cutoff", self.cutoff), ("r0", self.r0)] {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(format!("{name} {value}: it must be a finite number above 0"));
+            }
+        }
+        if self.r1().is_finite() && self.r0 < self.r1() {
+            return Ok(self);
+        }
+        Err(format!("r0 {}: it must be below the influence radius sqrt(I/I0) = {}", self.r0, self.r1()))
+    }
+}
+
+impl fmt::Display for Lighting {
+    /// Writes `N,I,I0,R0`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{},{},{},{}", self.count, self.intensity, self.cutoff, self.r0)
+    }
+}
+
+impl FromStr for Lighting {
+    type Err = String;
+
+    /// Reads `N[,I[,I0[,R0]]]`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || format!("`{text}` is no lighting N[,I,I0,R0] such as 1000 or 10000,20,0.5,0.1");
+        let mut parts = text.split(',').map(str::trim);
+        let mut lighting = Self::with_count(parts.next().unwrap_or_default().parse().map_err(|_| wrong())?);
+        for value in [&mut lighting.intensity, &mut lighting.cutoff, &mut lighting.r0] {
+            if let Some(part) = parts.next() {
+                *value = part.parse().map_err(|_| wrong())?;
+            }
+        }
+        if parts.next().is_some() { Err(wrong()) } else { lighting.check() }
+    }
+}
+
+impl fmt::Display for LightsFrom {
+    /// Writes what tells the lights of one run from another's: the count, the file, or `scene`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Rain(lighting) => write!(f, "{}", lighting.count),
+            Self::File(path) => write!(f, "{}", path.display()),
+            Self::Scene => f.write_str("scene"),
+        }
+    }
+}
+
+/// One method in a JSON list.
+struct MethodText(MethodSpec);
+
+impl<'de> Deserialize<'de> for MethodText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        method(&String::deserialize(deserializer)?).map(Self).map_err(D::Error::custom)
+    }
+}
+
+/// Deserializes an optional field and passes it through its check.
+fn checked<'de, D, T, U>(
+    deserializer: D,
+    check: impl FnOnce(T) -> Result<U, String>,
+) -> Result<Option<U>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: Deserialize<'de>,
+{
+    Option::<T>::deserialize(deserializer)?.map(check).transpose().map_err(D::Error::custom)
+}
+
+/// The checks above as serde calls them, one a kind of field.
+pub(super) mod de {
+    use super::*;
+
+    pub fn text<'de, D: Deserializer<'de>>(d: D) -> Result<Option<String>, D::Error> {
+        checked(d, check_text)
+    }
+
+    pub fn methods<'de, D: Deserializer<'de>>(d: D) -> Result<Option<Vec<MethodSpec>>, D::Error> {
+        checked(d, |list: Vec<MethodText>| check_methods(list.into_iter().map(|method| method.0).collect()))
+    }
+
+    pub fn lights<'de, D: Deserializer<'de>>(d: D) -> Result<Option<Vec<Lighting>>, D::Error> {
+        checked(d, check_lights)
+    }
+
+    pub fn resolution<'de, D: Deserializer<'de>>(d: D) -> Result<Option<[u32; 2]>, D::Error> {
+        checked(d, check_resolution)
+    }
+
+    pub fn msaa<'de, D: Deserializer<'de>>(d: D) -> Result<Option<u32>, D::Error> {
+        checked(d, check_msaa)
+    }
+
+    pub fn capacity<'de, D: Deserializer<'de>>(d: D) -> Result<Option<u32>, D::Error> {
+        checked(d, check_capacity)
+    }
+
+    pub fn attenuation<'de, D: Deserializer<'de>>(d: D) -> Result<Option<Attenuation>, D::Error> {
+        checked(d, |name: String| super::attenuation(&name))
+    }
+}
+
+/// How resolved values are written.
+pub(super) mod ser {
+    use super::*;
+
+    pub fn methods<S: Serializer>(methods: &[MethodSpec], serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(methods.iter().map(ToString::to_string))
+    }
+
+    pub fn attenuation<S: Serializer>(attenuation: &Attenuation, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(attenuation)
+    }
+}
