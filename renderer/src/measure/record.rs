@@ -103,3 +103,39 @@ pub struct ViewPixels {
     /// Clip from view (reversed depth), column-major.
     pub clip_from_view: glam::DMat4,
 }
+
+impl FrameCounts {
+    /// Cells of all grids, visible or not.
+    pub fn clusters(&self) -> u64 {
+        self.clusterings.iter().map(|c| c.dimensions.iter().map(|&d| u64::from(d)).product::<u64>()).sum()
+    }
+
+    /// Visible clusters of all clusterings.
+    pub fn visible_clusters(&self) -> u64 {
+        self.sum(|clustering| clustering.visible_clusters)
+    }
+
+    /// Light indices of all clusterings.
+    pub fn light_indices(&self) -> u64 {
+        self.sum(|clustering| clustering.light_indices)
+    }
+
+    /// Sphere against cluster tests of all clusterings.
+    pub fn intersection_tests(&self) -> u64 {
+        self.sum(|clustering| clustering.intersection_tests)
+    }
+
+    /// Light indices that did not fit, of all clusterings.
+    pub fn light_indices_dropped(&self) -> u64 {
+        self.sum(|clustering| clustering.light_indices_dropped)
+    }
+
+    /// Visible clusters that did not fit, of all clusterings.
+    pub fn visible_clusters_dropped(&self) -> u64 {
+        self.sum(|clustering| clustering.visible_clusters_dropped)
+    }
+
+    fn sum(&self, count: impl Fn(&ClusteringCounts) -> u64) -> u64 {
+        self.clusterings.iter().map(count).sum()
+    }
+}

@@ -1,1 +1,39 @@
-//! Files.
+//! Files: run directories with a manifest, CSV tables, EXR and PNG images, and the closing summary.
+//!
+//! Everything is written to a temporary name and renamed, so that a file that exists is whole. This module
+//! knows no passes: it is given the records of [`crate::measure`].
+//!
+//! ```text
+//! OUT/
+//!   summary.csv            one row a method and lighting
+//!   <run>/                 named by method (and lighting, where there are several)
+//!     run.json             how the run came to be
+//!     frames.csv  clusterings.csv  histograms.csv  timings.csv
+//!     frames/NNNNNN.exr  NNNNNN.png  NNNNNN_lights.png  NNNNNN_clusters.png
+//! ```
+
+mod atomic;
+mod color;
+mod image_exr;
+mod manifest;
+mod preview;
+mod run;
+mod stages;
+mod summary;
+mod tables;
+
+#[cfg(test)]
+mod testing;
+#[cfg(test)]
+mod tests;
+
+pub use atomic::write_whole;
+pub use color::{cluster_color, cubehelix, tone_map};
+pub use image_exr::write_exr;
+pub use manifest::{
+    Capacities, DeviceInfo, GrowthEvent, Manifest, RUN_FORMAT, Source, git_revision, rfc3339_utc,
+};
+pub use preview::{cluster_preview, image_preview, light_preview, write_previews};
+pub use run::{PlannedRun, RunWriter, planned_runs, prepare_output, write_summary};
+pub use stages::{GpuTimes, StageMinima};
+pub use summary::{MethodRun, Ratios, Summary, SummaryRow, Values};

@@ -1,0 +1,232 @@
+//! Whole or not at all: files and directories appear under their names only when complete.
+
+use crate::{Error, Result};
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// Writes a file under a temporary name beside `path`, then renames it over `path`. Missing parent directories
+/// are made.
+///
+/// # Errors
+/// The directory or the file cannot be written; nothing of it is left then.
+pub fn write_whole(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<()> {
+    let parent = parent_of(path);
+    make_directory(parent)?;
+    replace_file(path, parent, write).map_err(|error| cannot_write(path, &error))
+}
+
+fn replace_file(
+    path: &Path,
+    parent: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> io::Result<()> {
+    let temporary = builder(".manylight-", 0o666).tempfile_in(parent)?;
+    fill(temporary.as_file().try_clone()?, write)?;
+    temporary.persist(path).map(drop).map_err(|error| error.error)
+}
+
+/// Writes and flushes: a full disk shows here.
+fn fill(file: File, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+    let mut writer = BufWriter::new(file);
+    write(&mut writer)?;
+    writer.flush()?;
+    writer.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
+}
+
+/// Makes a directory and its parents.
+pub(super) fn make_directory(path: &Path) -> Result<()> {
+    fs::create_dir_all(path)
+        .map_err(|error| Error::file(path, format!("the directory cannot be made: {}", plain(&error))))
+}
+
+/// A directory that is filled beside its final place and put there when whole.
+#[derive(Debug)]
+pub(super) struct StagedDirectory {
+    target: PathBuf,
+    staged: TempDir,
+}
+
+impl StagedDirectory {
+    /// Stages `target`; its parents are made. `marker` is a file by which an older result is known: a directory
+    /// at `target` that is neither empty nor holds it is somebody else's, and is refused.
+    pub fn create(target: &Path, marker: &str) -> Result<Self> {
+        let parent = parent_of(target);
+        make_directory(parent)?;
+        if let Ok(entries) = fs::read_dir(target) {
+            if entries.count() > 0 && !target.join(marker).is_file() {
+                return Err(Error::file(
+                    target,
+                    format!(
+                        "exists without a {marker}, so it is no earlier result: move it, or choose another output directory"
+                    ),
+                ));
+            }
+        } else if fs::symlink_metadata(target).is_ok() {
+            return Err(Error::file(
+                target,
+                "exists and is no directory: move it, or choose another output directory",
+            ));
+        }
+        let staged =
+            builder(".manylight-", 0o777).tempdir_in(parent).map_err(|error| cannot_write(parent, &error))?;
+        Ok(Self { target: target.to_owned(), staged })
+    }
+
+    /// Where to write until [`Self::commit`].
+    pub fn path(&self) -> &Path {
+        self.staged.path()
+    }
+
+    /// Puts the directory in its place; an older one there is deleted only after that.
+    pub fn commit(self) -> Result<()> {
+        let Self { target, staged } = self;
+        let swap = || -> io::Result<Option<TempDir>> {
+            if fs::symlink_metadata(&target).is_err() {
+                fs::rename(staged.path(), &target)?;
+                return Ok(None);
+            }
+            let old = builder(".manylight-old-", 0o777).tempdir_in(parent_of(&target))?;
+            let parked = old.path().join("old");
+            fs::rename(&target, &parked)?;
+            fs::rename(staged.path(), &target).inspect_err(|_| {
+                // Back to how it was; the first failure is the one to report.
+                let _ = fs::rename(&parked, &target);
+            })?;
+            Ok(Some(old))
+        };
+        let old = swap().map_err(|error| cannot_write(&target, &error))?;
+        // What was staged has moved: there is nothing left to clean up under its temporary name.
+        let _ = staged.keep();
+        drop(old);
+        Ok(())
+    }
+}
+
+/// An error that says which file cannot be written, and why.
+pub(super) fn cannot_write(path: &Path, error: &io::Error) -> Error {
+    Error::file(path, format!("cannot be written: {}", plain(error)))
+}
+
+/// The cause without the number the system has for it.
+fn plain(error: &io::Error) -> String {
+    let text = error.to_string();
+    text.split(" (os error").next().unwrap_or_default().to_owned()
+}
+
+fn parent_of(path: &Path) -> &Path {
+    path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Temporary names for results, with the permissions that results have (`mode` less the user's mask).
+fn builder(prefix: &str, mode: u32) -> tempfile::Builder<'_, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(prefix).suffix(".tmp");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
+    #[cfg(not(unix))]
+    let _ = mode;
+    builder
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(path: &Path) -> Vec<String> {
+        let mut names: Vec<String> = fs::read_dir(path)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_failed_write_leaves_the_old_file_and_nothing_else() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a/b.csv");
+        write_whole(&path, |file| file.write_all(b"old")).unwrap();
+        let error = write_whole(&path, |file| {
+            file.write_all(b"half")?;
+            Err(io::ErrorKind::StorageFull.into())
+        })
+        .unwrap_err();
+        assert_eq!(error.to_string(), format!("{}: cannot be written: no storage space", path.display()));
+        assert_eq!(error.exit_code(), 2);
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert_eq!(names(path.parent().unwrap()), ["b.csv"]);
+    }
+
+    #[test]
+    fn a_full_device_is_seen() {
+        if !Path::new("/dev/full").exists() {
+            return;
+        }
+        let full = File::options().write(true).open("/dev/full").unwrap();
+        let error = fill(full, |file| file.write_all(b"x")).unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::StorageFull);
+        assert_eq!(plain(&error), "No space left on device");
+    }
+
+    #[test]
+    fn a_path_under_a_file_is_refused_with_its_name() {
+        let dir = tempfile::tempdir().unwrap();
+        let file = dir.path().join("file");
+        fs::write(&file, "").unwrap();
+        let error = write_whole(&file.join("out/run.json"), |_| Ok(())).unwrap_err();
+        let expected =
+            format!("{}: the directory cannot be made: Not a directory", file.join("out").display());
+        assert_eq!(error.to_string(), expected);
+    }
+
+    #[test]
+    fn a_staged_directory_replaces_the_old_one_whole() {
+        let dir = tempfile::tempdir().unwrap();
+        let target = dir.path().join("run");
+        for content in ["table1", "table2"] {
+            let staged = StagedDirectory::create(&target, "run.json").unwrap();
+            fs::write(staged.path().join("run.json"), content).unwrap();
+            fs::write(staged.path().join(content), "").unwrap();
+            staged.commit().unwrap();
+            assert_eq!(names(&target), ["run.json", content]);
+        }
+        assert_eq!(fs::read_to_string(target.join("run.json")).unwrap(), "table2");
+        assert_eq!(names(dir.path()), ["run"]);
+    }
+
+    #[test]
+    fn an_abandoned_directory_leaves_nothing() {
+        let dir = tempfile::tempdir().unwrap();
+        let staged = StagedDirectory::create(&dir.path().join("run"), "run.json").unwrap();
+        fs::write(staged.path().join("half"), "x").unwrap();
+        drop(staged);
+        assert!(names(dir.path()).is_empty());
+    }
+
+    #[test]
+    fn foreign_directories_and_files_are_refused() {
+        let dir = tempfile::tempdir().unwrap();
+        let target = dir.path().join("run");
+        fs::create_dir(&target).unwrap();
+        fs::write(target.join("thesis.doc"), "").unwrap();
+        let error = StagedDirectory::create(&target, "run.json").unwrap_err().to_string();
+        assert!(error.contains("exists without a run.json"), "{error}");
+        let error = StagedDirectory::create(&target.join("thesis.doc"), "run.json").unwrap_err().to_string();
+        assert!(error.contains("is no directory"), "{error}");
+        assert_eq!(names(dir.path()), ["run"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn results_have_ordinary_permissions() {
+        use std::os::unix::fs::PermissionsExt;
+        let dir = tempfile::tempdir().unwrap();
+        let (plain_path, path) = (dir.path().join("plain"), dir.path().join("whole"));
+        fs::write(&plain_path, "").unwrap();
+        write_whole(&path, |_| Ok(())).unwrap();
+        let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode();
+        assert_eq!(mode(&plain_path), mode(&path));
+    }
+}

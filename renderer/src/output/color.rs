@@ -1,0 +1,92 @@
+//! Colours of previews, 8-bit sRGB.
+
+use std::f64::consts::TAU;
+
+/// What radiance is multiplied with before the curve.
+const EXPOSURE: f32 = 1.0;
+
+/// Pixels of which there is nothing to show.
+pub(super) const NOTHING: [u8; 3] = [255, 0, 255];
+
+/// Behind the clusters.
+pub(super) const BACKGROUND: [u8; 3] = [24, 24, 24];
+
+/// Linear HDR colour to display: a fixed exposure, a filmic curve per channel, the sRGB transfer function.
+///
+/// The curve is x(2.51x + 0.03) / (x(2.43x + 0.59) + 0.14), clamped to 1: Narkowicz's fit of the ACES reference
+/// rendering ("ACES Filmic Tone Mapping Curve", 2015). NaN and negative light show as black.
+pub fn tone_map(color: [f32; 3]) -> [u8; 3] {
+    color.map(|channel| {
+        // Beyond this the curve is at 1 already, and infinity over infinity is avoided.
+        let x = (channel * EXPOSURE).clamp(0.0, 1e4);
+        let x = if x.is_nan() { 0.0 } else { x };
+        let display = (x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14)).clamp(0.0, 1.0);
+        to_byte(f64::from(srgb_encode(display)))
+    })
+}
+
+/// The sRGB transfer function (IEC 61966-2-1), linear 0..1 to encoded 0..1.
+fn srgb_encode(linear: f32) -> f32 {
+    if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// A colour whose lightness rises with `fraction` from black at 0 to white at 1 (Green 2011, "A colour scheme for
+/// the display of astronomical intensity images"; start 0.5, rotations -1.5, hue 1, gamma 1).
+pub fn cubehelix(fraction: f64) -> [u8; 3] {
+    const START: f64 = 0.5;
+    const ROTATIONS: f64 = -1.5;
+    let lightness = fraction.clamp(0.0, 1.0);
+    let angle = TAU * (START / 3.0 + 1.0 + ROTATIONS * lightness);
+    let amplitude = lightness * (1.0 - lightness) / 2.0;
+    let (sin, cos) = angle.sin_cos();
+    [(-0.14861, 1.78277), (-0.29227, -0.90649), (1.97294, 0.0)]
+        .map(|(along, across)| to_byte(lightness + amplitude * (along * cos + across * sin)))
+}
+
+/// One of three colours that colour-blind readers tell apart (Okabe and Ito 2008: orange, sky blue, bluish green),
+/// by the cluster's linear index modulo 3: neighbours along x differ.
+pub fn cluster_color(index: u32) -> [u8; 3] {
+    [[230, 159, 0], [86, 180, 233], [0, 158, 115]][(index % 3) as usize]
+}
+
+fn to_byte(fraction: f64) -> u8 {
+    (fraction.clamp(0.0, 1.0) * 255.0).round() as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tone_map_is_black_at_zero_white_at_infinity_and_rises() {
+        assert_eq!(tone_map([0.0, -1.0, f32::NAN]), [0, 0, 0]);
+        assert_eq!(tone_map([f32::INFINITY, 1e9, 20.0]), [255, 255, 255]);
+        let mut last = 0;
+        for step in 0..2000 {
+            let [value, ..] = tone_map([step as f32 * 0.005, 0.0, 0.0]);
+            assert!(value >= last);
+            last = value;
+        }
+    }
+
+    #[test]
+    fn tone_map_meets_values_computed_by_hand() {
+        // 0.18: curve 0.18*(0.4518+0.03)/(0.18*(0.4374+0.59)+0.14) = 0.26689; sRGB 0.55357.
+        assert_eq!(tone_map([0.18, 1.0, 0.001]), [141, 232, 1]);
+    }
+
+    #[test]
+    fn cubehelix_meets_known_points() {
+        assert_eq!(cubehelix(0.0), [0, 0, 0]);
+        assert_eq!(cubehelix(0.25), [22, 83, 76]);
+        assert_eq!(cubehelix(0.5), [160, 121, 73]);
+        assert_eq!(cubehelix(0.75), [199, 179, 237]);
+        assert_eq!(cubehelix(1.0), [255, 255, 255]);
+        assert_eq!(cubehelix(7.0), [255, 255, 255]);
+    }
+
+    #[test]
+    fn neighbouring_clusters_differ() {
+        assert!((0..30).all(|index| cluster_color(index) != cluster_color(index + 1)));
+    }
+}

@@ -1,0 +1,119 @@
+//! PNG previews of one frame, all views side by side.
+
+use super::atomic::write_whole;
+use super::color::{BACKGROUND, NOTHING, cluster_color, cubehelix, tone_map};
+use crate::Result;
+use crate::measure::ViewPixels;
+use image::{ImageFormat, Rgb, RgbImage};
+use std::io;
+use std::path::Path;
+
+/// Writes `stem.png` (tone-mapped), `stem_lights.png` (heat map, see [`light_preview`]) and `stem_clusters.png`.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn write_previews(
+    directory: &Path,
+    stem: &str,
+    views: &[ViewPixels],
+    most_lights: Option<u32>,
+) -> Result<()> {
+    let previews = [
+        ("", image_preview(views)),
+        ("_lights", light_preview(views, most_lights)),
+        ("_clusters", cluster_preview(views)),
+    ];
+    for (suffix, preview) in previews {
+        write_whole(&directory.join(format!("{stem}{suffix}.png")), |file| {
+            preview.write_to(file, ImageFormat::Png).map_err(|error| match error {
+                image::ImageError::IoError(error) => error,
+                other => io::Error::other(other.to_string()),
+            })
+        })?;
+    }
+    Ok(())
+}
+
+/// The image as a display shows it.
+pub fn image_preview(views: &[ViewPixels]) -> RgbImage {
+    side_by_side(views, |view, pixel| {
+        let [r, g, b, _] = view.color[pixel];
+        tone_map([r, g, b].map(|channel| channel.to_f32()))
+    })
+}
+
+/// Lights per cluster as colour (cubehelix): black for none, white for `most_lights`, or for the most in these views
+/// where it is `None`. Magenta where there is no cluster.
+pub fn light_preview(views: &[ViewPixels], most_lights: Option<u32>) -> RgbImage {
+    let in_frame = || views.iter().flat_map(|view| &view.light_count).copied().max().unwrap_or(0);
+    let scale = f64::from(most_lights.unwrap_or_else(in_frame).max(1));
+    side_by_side(views, |view, pixel| match view.cluster_index[pixel] {
+        u32::MAX => NOTHING,
+        _ => cubehelix(f64::from(view.light_count[pixel]) / scale),
+    })
+}
+
+/// Clusters as colour: the linear index modulo 3, dark where there is none.
+pub fn cluster_preview(views: &[ViewPixels]) -> RgbImage {
+    side_by_side(views, |view, pixel| match view.cluster_index[pixel] {
+        u32::MAX => BACKGROUND,
+        index => cluster_color(index),
+    })
+}
+
+/// One image with the views from left to right; `color` is given a view and the index of its pixel.
+fn side_by_side(views: &[ViewPixels], color: impl Fn(&ViewPixels, usize) -> [u8; 3]) -> RgbImage {
+    let width = views.iter().map(|view| view.width).sum();
+    let height = views.iter().map(|view| view.height).max().unwrap_or(0);
+    let mut image = RgbImage::from_pixel(width, height, Rgb(BACKGROUND));
+    let mut left = 0;
+    for view in views {
+        for (y, x) in (0..view.height).flat_map(|y| (0..view.width).map(move |x| (y, x))) {
+            let pixel = y as usize * view.width as usize + x as usize;
+            image.put_pixel(left + x, y, Rgb(color(view, pixel)));
+        }
+        left += view.width;
+    }
+    image
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::view;
+    use super::*;
+
+    #[test]
+    fn heat_map_has_the_known_colours_at_known_counts() {
+        let mut pixels = view("mono", 4, 1);
+        pixels.light_count = vec![0, 0, 50, 100];
+        let image = light_preview(&[pixels.clone()], None);
+        let colors: Vec<[u8; 3]> = image.pixels().map(|pixel| pixel.0).collect();
+        assert_eq!(colors, [[255, 0, 255], [0, 0, 0], [160, 121, 73], [255, 255, 255]]);
+        let image = light_preview(&[pixels], Some(200));
+        assert_eq!(image.get_pixel(3, 0).0, [160, 121, 73]);
+    }
+
+    #[test]
+    fn a_frame_without_lights_is_black_not_undefined() {
+        let mut pixels = view("mono", 2, 1);
+        pixels.light_count = vec![0, 0];
+        assert_eq!(light_preview(&[pixels], None).get_pixel(1, 0).0, [0, 0, 0]);
+    }
+
+    #[test]
+    fn views_stand_side_by_side_and_read_back() {
+        let dir = tempfile::tempdir().unwrap();
+        let (left, right) = (view("left", 3, 2), view("right", 3, 2));
+        write_previews(dir.path(), "000300", &[left.clone(), right], None).unwrap();
+        let read = |name: &str| image::open(dir.path().join(name)).unwrap().to_rgb8();
+        let clusters = read("000300_clusters.png");
+        assert_eq!(clusters.dimensions(), (6, 2));
+        assert_eq!(clusters.get_pixel(0, 0).0, [24, 24, 24]);
+        assert_eq!(clusters.get_pixel(3, 0).0, [24, 24, 24]);
+        assert_eq!(clusters.get_pixel(1, 0).0, cluster_color(1));
+        assert_eq!(clusters.get_pixel(3, 1).0, cluster_color(3));
+        let [r, g, b, _] = left.color[5].map(|channel| channel.to_f32());
+        assert_eq!(read("000300.png").get_pixel(2, 1).0, tone_map([r, g, b]));
+        assert_eq!(read("000300_lights.png").dimensions(), (6, 2));
+    }
+}

@@ -1,0 +1,125 @@
+//! Run directories: which runs a configuration asks for, what they are called, how they are written.
+
+use super::atomic::{StagedDirectory, cannot_write, make_directory, write_whole};
+use super::image_exr::write_exr;
+use super::manifest::Manifest;
+use super::preview::write_previews;
+use super::stages::StageMinima;
+use super::summary::Summary;
+use super::tables;
+use crate::config::{Config, Lighting, LightsFrom};
+use crate::measure::{FrameCounts, FrameTimes, ViewPixels};
+use crate::methods::MethodSpec;
+use crate::{Error, Result};
+use std::io::Write;
+use std::path::Path;
+
+/// By this file a run directory is known.
+const MANIFEST: &str = "run.json";
+
+/// One run: a method under one lighting.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlannedRun {
+    /// How lights are found.
+    pub method: MethodSpec,
+    /// Where lights come from.
+    pub lights: LightsFrom,
+    /// Name of the lighting, for tables: its count, with its other fields where counts are equal.
+    pub lighting: String,
+    /// Name of the run directory: the method, with the lighting behind it where there are several.
+    pub name: String,
+}
+
+/// The runs a configuration asks for: every method under the first lighting, then under the next.
+pub fn planned_runs(config: &Config) -> Vec<PlannedRun> {
+    let sources = config.lights_from();
+    let mut runs = Vec::new();
+    for lights in &sources {
+        let lighting = lighting_name(lights, &sources);
+        for &method in &config.methods {
+            let name = if sources.len() > 1 { format!("{method}_{lighting}") } else { method.to_string() };
+            runs.push(PlannedRun { method, lights: lights.clone(), lighting: lighting.clone(), name });
+        }
+    }
+    runs
+}
+
+/// What tells a lighting from the others.
+fn lighting_name(lights: &LightsFrom, all: &[LightsFrom]) -> String {
+    let count = |lights: &LightsFrom| match lights {
+        LightsFrom::Rain(lighting) => Some(lighting.count),
+        LightsFrom::File(_) | LightsFrom::Scene => None,
+    };
+    match lights {
+        LightsFrom::Rain(Lighting { count: n, intensity, cutoff, r0 })
+            if all.iter().filter(|other| count(other) == Some(*n)).count() > 1 =>
+        {
+            format!("{n}-{intensity}-{cutoff}-{r0}")
+        }
+        _ => lights.to_string(),
+    }
+}
+
+/// Makes the output directory and tries it, so that a run of an hour does not end at a wall.
+///
+/// # Errors
+/// The directory cannot be made or written to.
+pub fn prepare_output(out: &Path) -> Result<()> {
+    make_directory(out)?;
+    tempfile::tempfile_in(out)
+        .and_then(|mut file| file.write_all(b"manylight").and_then(|()| file.sync_all()))
+        .map_err(|error| cannot_write(out, &error))
+}
+
+/// Writes `OUT/summary.csv`.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_summary(out: &Path, summary: &Summary) -> Result<()> {
+    write_whole(&out.join("summary.csv"), |file| summary.write_csv(file))
+}
+
+/// Writes one run directory. Nothing is seen under its name before [`Self::finish`]; dropped before that, it leaves
+/// nothing, and an earlier result stays as it was.
+#[derive(Debug)]
+pub struct RunWriter {
+    staged: StagedDirectory,
+}
+
+impl RunWriter {
+    /// Begins `OUT/<name>`.
+    ///
+    /// # Errors
+    /// The output directory cannot be written, or what stands at the name is not an earlier run.
+    pub fn create(out: &Path, name: &str) -> Result<Self> {
+        Ok(Self { staged: StagedDirectory::create(&out.join(name), MANIFEST)? })
+    }
+
+    /// Writes a frame's `frames/NNNNNN.exr` and its previews. `most_lights` is the upper end of the heat map, the
+    /// frame's own most where `None`.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn write_images(&self, frame: u32, views: &[ViewPixels], most_lights: Option<u32>) -> Result<()> {
+        let (directory, stem) = (self.staged.path().join("frames"), format!("{frame:06}"));
+        write_exr(&directory.join(format!("{stem}.exr")), views)?;
+        write_previews(&directory, &stem, views, most_lights)
+    }
+
+    /// Writes the tables and the manifest, and puts the directory in its place, over an older run's.
+    ///
+    /// # Errors
+    /// A file cannot be written; nothing is left of the new directory then.
+    pub fn finish(self, manifest: &Manifest, counts: &[FrameCounts], times: &[FrameTimes]) -> Result<()> {
+        let at = |name: &str| self.staged.path().join(name);
+        let minima = StageMinima::from_times(times);
+        write_whole(&at("frames.csv"), |file| tables::write_frames(file, counts, &minima))?;
+        write_whole(&at("timings.csv"), |file| tables::write_timings(file, times))?;
+        write_whole(&at("clusterings.csv"), |file| tables::write_clusterings(file, counts))?;
+        write_whole(&at("histograms.csv"), |file| tables::write_histograms(file, counts))?;
+        let manifest = serde_json::to_string_pretty(manifest)
+            .map_err(|error| Error::Internal(format!("the manifest is not JSON: {error}")))?;
+        write_whole(&at(MANIFEST), |file| writeln!(file, "{manifest}"))?;
+        self.staged.commit()
+    }
+}

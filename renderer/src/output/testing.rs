@@ -1,0 +1,70 @@
+//! Records with recognisable values, for the tests of this module.
+
+use crate::measure::{ClusterRecord, ClusteringCounts, FrameCounts, FrameTimes, StageTime, ViewPixels};
+use half::f16;
+
+/// A view whose every pixel differs; the first pixel was hit by nothing.
+pub(super) fn view(name: &str, width: u32, height: u32) -> ViewPixels {
+    let pixels = width * height;
+    let shade = |i: u32, scale: f32| f16::from_f32(i as f32 * scale);
+    ViewPixels {
+        name: name.into(),
+        width,
+        height,
+        color: (0..pixels).map(|i| [shade(i, 0.01), shade(i, 0.02), shade(i, 0.03), f16::ONE]).collect(),
+        depth: (0..pixels).map(|i| if i == 0 { f32::INFINITY } else { i as f32 * 0.1 }).collect(),
+        light_count: (0..pixels).map(|i| i * 3).collect(),
+        fragment_count: (0..pixels).map(|i| i * 7).collect(),
+        cluster_index: (0..pixels).map(|i| if i == 0 { u32::MAX } else { i }).collect(),
+        world_from_view: glam::DMat4::IDENTITY,
+        clip_from_view: glam::DMat4::IDENTITY,
+    }
+}
+
+/// A frame of two clusterings with three and one visible clusters.
+pub(super) fn counts(frame: u32) -> FrameCounts {
+    let cluster = |index, fragments, lights| ClusterRecord { index, fragments, lights };
+    FrameCounts {
+        frame,
+        time_s: f64::from(frame) / 90.0,
+        views: 2,
+        clusterings: vec![
+            ClusteringCounts {
+                dimensions: [10, 12, 24],
+                visible_clusters: 3,
+                light_indices: 9,
+                intersection_tests: 3000,
+                lists_hash: 0xabc,
+                clusters: vec![cluster(4, 100, 2), cluster(5, 50, 5), cluster(9, 100, 2)],
+                ..ClusteringCounts::default()
+            },
+            ClusteringCounts {
+                dimensions: [2, 3, 4],
+                visible_clusters: 1,
+                light_indices: 0,
+                intersection_tests: 1000,
+                lists_hash: u64::MAX,
+                clusters: vec![cluster(0, 7, 0)],
+                ..ClusteringCounts::default()
+            },
+        ],
+        lighting_computations: 650,
+        needed_computations: 600,
+        fragments_shaded: 257,
+        fragments_without_cluster: 0,
+        lights_per_fragment: vec![vec![(2, 200), (5, 50)], vec![(0, 7)]],
+    }
+}
+
+/// A frame of one temporal run in which the frame took `total` milliseconds: a quarter of it clustering, a half
+/// shading.
+pub(super) fn times(run: u32, frame: u32, total: f64) -> FrameTimes {
+    let stage = |stage: &str, gpu_ms| StageTime { stage: stage.into(), gpu_ms, cpu_ms: 0.5 };
+    let stages = vec![
+        stage("frame", total),
+        stage("frame/cluster[0]", total / 4.0),
+        stage("frame/cluster[0]/mark[0]", total / 8.0),
+        stage("frame/shade[0]", total / 2.0),
+    ];
+    FrameTimes { run, frame, stages }
+}

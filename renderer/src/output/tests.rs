@@ -1,0 +1,282 @@
+use super::testing::{counts, times, view};
+use super::*;
+use crate::config::{Config, Lighting};
+use crate::measure::{FrameCounts, FrameTimes};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+fn csv_text(write: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>) -> String {
+    let mut bytes = Vec::new();
+    write(&mut bytes).unwrap();
+    String::from_utf8(bytes).unwrap()
+}
+
+fn frames(counts: &[FrameCounts], times: &[FrameTimes]) -> String {
+    csv_text(|out| tables::write_frames(out, counts, &StageMinima::from_times(times)))
+}
+
+#[test]
+fn frames_csv_has_the_documented_columns_and_the_minimum_over_runs() {
+    let text = frames(&[counts(40)], &[times(0, 40, 9.0), times(1, 40, 8.0)]);
+    let expected = "frame,time_s,views,clusterings,clusters,visible_clusters,light_indices,lighting_computations,\
+        needed_computations,intersection_tests,fragments_shaded,fragments_without_cluster,light_indices_dropped,\
+        visible_clusters_dropped,gpu_ms_frame,gpu_ms_cluster,gpu_ms_visibility,gpu_ms_count_lights,\
+        gpu_ms_assign_lights,gpu_ms_shade\n\
+        40,0.4444444444444444,2,2,2904,4,9,650,600,4000,257,0,0,0,8.000000,2.000000,1.000000,0.000000,0.000000,4.000000\n";
+    assert_eq!(text, expected);
+}
+
+#[test]
+fn frames_csv_leaves_times_empty_without_temporal_runs() {
+    let text = frames(&[counts(0)], &[]);
+    assert!(text.ends_with("\n0,0,2,2,2904,4,9,650,600,4000,257,0,0,0,,,,,,\n"), "{text}");
+}
+
+#[test]
+fn timings_csv_has_every_stage_of_every_run() {
+    let text = csv_text(|out| tables::write_timings(out, &[times(1, 40, 8.0)]));
+    let expected = "run,frame,stage,gpu_ms,cpu_ms\n\
+        1,40,frame,8.000000,0.500000\n\
+        1,40,frame/cluster[0],2.000000,0.500000\n\
+        1,40,frame/cluster[0]/mark[0],1.000000,0.500000\n\
+        1,40,frame/shade[0],4.000000,0.500000\n";
+    assert_eq!(text, expected);
+}
+
+#[test]
+fn clusterings_csv_has_grid_and_counters() {
+    let text = csv_text(|out| tables::write_clusterings(out, &[counts(40)]));
+    let expected = "frame,clustering,dx,dy,dz,visible_clusters,light_indices,intersection_tests,lists_hash\n\
+        40,0,10,12,24,3,9,3000,0000000000000abc\n\
+        40,1,2,3,4,1,0,1000,ffffffffffffffff\n";
+    assert_eq!(text, expected);
+}
+
+#[test]
+fn histograms_csv_has_exact_ascending_bins() {
+    let text = csv_text(|out| tables::write_histograms(out, &[counts(40)]));
+    let expected = "frame,clustering,kind,bin,clusters,fragments\n\
+        40,0,lights_per_cluster,2,2,200\n\
+        40,0,lights_per_cluster,5,1,50\n\
+        40,0,fragments_per_cluster,50,1,50\n\
+        40,0,fragments_per_cluster,100,2,200\n\
+        40,0,lights_per_fragment,2,2,200\n\
+        40,0,lights_per_fragment,5,1,50\n\
+        40,1,lights_per_cluster,0,1,7\n\
+        40,1,fragments_per_cluster,7,1,7\n\
+        40,1,lights_per_fragment,0,1,7\n";
+    assert_eq!(text, expected);
+}
+
+#[test]
+fn histograms_of_all_lights_are_per_view_and_know_no_clusters() {
+    let frame =
+        FrameCounts { frame: 3, lights_per_fragment: vec![vec![(1000, 12)]], ..FrameCounts::default() };
+    let text = csv_text(|out| tables::write_histograms(out, &[frame]));
+    assert!(text.ends_with("fragments\n3,0,lights_per_fragment,1000,0,12\n"), "{text}");
+}
+
+fn run<'a>(
+    method: &str,
+    lighting: &'a str,
+    counts: &'a [FrameCounts],
+    times: &'a [FrameTimes],
+) -> MethodRun<'a> {
+    MethodRun { method: method.parse().unwrap(), lighting, counts, times }
+}
+
+/// Counts with twice the lighting computations.
+fn doubled(frame: u32) -> FrameCounts {
+    let counts = counts(frame);
+    FrameCounts { lighting_computations: counts.lighting_computations * 2, ..counts }
+}
+
+#[test]
+fn summary_ratios_are_to_indi_persp_of_the_same_lighting() {
+    let (few, many) = ([counts(0), counts(40)], [doubled(0), doubled(40)]);
+    let (slow, fast) =
+        ([times(0, 0, 8.0), times(0, 40, 16.0)], [times(0, 0, 4.0), times(1, 0, 5.0), times(0, 40, 2.0)]);
+    let summary = Summary::from_runs(&[
+        run("encl-persp-64", "1000", &many, &fast),
+        run("indi-persp-64", "1000", &few, &slow),
+        run("encl-ortho-4", "100", &few, &slow),
+        run("indi-ortho-4", "100", &many, &[]),
+    ]);
+    let [encl, indi, first, untimed] = summary.rows.as_slice() else { panic!("four rows") };
+    assert_eq!((encl.reference.as_str(), encl.frames), ("indi-persp-64", 2));
+    assert_eq!(encl.means.total_ms, Some(3.0));
+    assert_eq!(encl.means.clustering_ms, Some(0.75));
+    assert_eq!(encl.means.shading_ms, Some(1.5));
+    assert_eq!((encl.ratios.total_ms, encl.ratios.lighting_computations), (Some(0.25), Some(2.0)));
+    assert_eq!((encl.ratios.visible_clusters, indi.ratios.total_ms), (Some(1.0), Some(1.0)));
+    assert_eq!((first.reference.as_str(), untimed.reference.as_str()), ("encl-ortho-4", "encl-ortho-4"));
+    assert_eq!((untimed.means.total_ms, untimed.ratios.total_ms), (None, None));
+    assert_eq!(untimed.ratios.lighting_computations, Some(2.0));
+}
+
+#[test]
+fn summary_has_no_ratio_to_nothing() {
+    let none = [FrameCounts::default()];
+    let summary = Summary::from_runs(&[
+        run("all-lights", "9", &none, &[]),
+        run("encl-ortho-4", "9", &[counts(0)], &[]),
+    ]);
+    assert_eq!(summary.rows[1].ratios.visible_clusters, None);
+    assert!(Summary::from_runs(&[]).to_string().contains("method"));
+}
+
+#[test]
+fn summary_csv_has_means_and_ratios() {
+    let (few, fast) = ([counts(0)], [times(0, 0, 4.0)]);
+    let summary = Summary::from_runs(&[run("indi-persp-64", "1000", &few, &fast)]);
+    let expected = "method,lighting,frames,visible_clusters,light_indices,lighting_computations,clustering_ms,shading_ms,\
+        total_ms,reference,visible_clusters_ratio,light_indices_ratio,lighting_computations_ratio,clustering_ms_ratio,\
+        shading_ms_ratio,total_ms_ratio\n\
+        indi-persp-64,1000,1,4.000,9.000,650.000,1.000000,2.000000,4.000000,indi-persp-64,\
+        1.000000,1.000000,1.000000,1.000000,1.000000,1.000000\n";
+    assert_eq!(csv_text(|out| summary.write_csv(out)), expected);
+}
+
+#[test]
+fn summary_table_is_narrow_and_says_what_ratios_are_to() {
+    let frame = FrameCounts { lighting_computations: 9_876_543_210, ..counts(0) };
+    let (counts, times) = ([frame], [times(0, 0, 12_345.678)]);
+    let names = ["indi-persp-64", "encl-displ-64-32"];
+    let runs: Vec<_> = names.iter().map(|name| run(name, "100000-100-0.5-0.1", &counts, &times)).collect();
+    let table = Summary::from_runs(&runs).to_string();
+    assert!(table.lines().all(|line| line.chars().count() < 140), "{table}");
+    assert!(
+        table.contains("9 876 543 210 (1.00)") && table.ends_with("the ratio to indi-persp-64."),
+        "{table}"
+    );
+}
+
+#[test]
+fn runs_are_named_by_method_and_by_lighting_where_needed() {
+    let names = |lights: Vec<Lighting>| {
+        let config = Config { lights, methods: vec!["encl-ortho-0.5".parse().unwrap()], ..Config::default() };
+        planned_runs(&config).into_iter().map(|run| run.name).collect::<Vec<_>>()
+    };
+    let thousand = Lighting::with_count(1000);
+    assert_eq!(names(vec![thousand]), ["encl-ortho-0.5"]);
+    let dim = Lighting { intensity: 20.0, ..thousand };
+    assert_eq!(
+        names(vec![thousand, Lighting::with_count(7), dim]),
+        ["encl-ortho-0.5_1000-100-0.5-0.1", "encl-ortho-0.5_7", "encl-ortho-0.5_1000-20-0.5-0.1"]
+    );
+    let config = Config { lights: vec![thousand, Lighting::with_count(7)], ..Config::default() };
+    let planned = planned_runs(&config);
+    assert_eq!((planned.len(), planned[1].name.as_str()), (12, "encl-persp-64_1000"));
+    assert_eq!(planned[6].lighting, "7");
+    let config = Config { lights: Vec::new(), scene_lights: true, ..Config::default() };
+    assert_eq!(planned_runs(&config)[0].lighting, "scene");
+}
+
+fn manifest() -> Manifest {
+    Manifest {
+        format: RUN_FORMAT,
+        version: env!("CARGO_PKG_VERSION"),
+        git_revision: git_revision(),
+        method: "encl-ortho-4".into(),
+        lighting: Some(Lighting::with_count(1000)),
+        config: Config::default(),
+        scene: Source { name: "street".into(), sha256: "00".into() },
+        recording: Source { name: "bistro-vive".into(), sha256: "11".into() },
+        device: DeviceInfo { name: "llvmpipe".into(), driver: "Mesa".into(), api: "1.3.230".into() },
+        capacities: Capacities { visible_clusters: 1, light_indices: 2 },
+        growth: vec![GrowthEvent {
+            frame: 40,
+            clustering: 0,
+            buffer: "light_indices".into(),
+            from: 1,
+            to: 2,
+        }],
+        complete: true,
+        started: "2026-11-05T09:03:07Z".into(),
+        duration_s: 1.5,
+    }
+}
+
+/// All files under a directory with their bytes.
+fn contents(directory: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    for entry in fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path()) {
+        let name = entry.file_name().unwrap().to_str().unwrap().to_owned();
+        if entry.is_dir() {
+            files.extend(
+                contents(&entry).into_iter().map(|(inner, bytes)| (format!("{name}/{inner}"), bytes)),
+            );
+        } else {
+            files.insert(name, fs::read(&entry).unwrap());
+        }
+    }
+    files
+}
+
+fn write_run(out: &Path) {
+    let writer = RunWriter::create(out, "encl-ortho-4").unwrap();
+    writer.write_images(40, &[view("left", 4, 3), view("right", 4, 3)], None).unwrap();
+    writer.finish(&manifest(), &[counts(40)], &[times(0, 40, 8.0)]).unwrap();
+}
+
+#[test]
+fn a_run_directory_is_whole_and_repeats_byte_for_byte() {
+    let dir = tempfile::tempdir().unwrap();
+    let out = dir.path().join("deep/out");
+    prepare_output(&out).unwrap();
+    write_run(&out);
+    let first = contents(&out);
+    let names: Vec<&str> = first.keys().map(String::as_str).collect();
+    let files = [
+        "clusterings.csv",
+        "frames.csv",
+        "frames/000040.exr",
+        "frames/000040.png",
+        "frames/000040_clusters.png",
+        "frames/000040_lights.png",
+        "histograms.csv",
+        "run.json",
+        "timings.csv",
+    ];
+    assert_eq!(names, files.map(|file| format!("encl-ortho-4/{file}")));
+    write_run(&out);
+    assert_eq!(contents(&out), first);
+}
+
+#[test]
+fn the_manifest_tells_how_the_run_came_to_be() {
+    let json = serde_json::to_value(manifest()).unwrap();
+    assert_eq!(json["format"], "manylight.run/1");
+    assert_eq!(json["config"]["methods"][1], "encl-persp-64");
+    assert_eq!(json["growth"][0]["buffer"], "light_indices");
+    assert_eq!(json["recording"]["sha256"], "11");
+}
+
+#[test]
+fn an_unfinished_run_leaves_the_earlier_one() {
+    let dir = tempfile::tempdir().unwrap();
+    write_run(dir.path());
+    let before = contents(dir.path());
+    let writer = RunWriter::create(dir.path(), "encl-ortho-4").unwrap();
+    writer.write_images(0, &[view("mono", 2, 2)], None).unwrap();
+    drop(writer);
+    assert_eq!(contents(dir.path()), before);
+}
+
+#[test]
+fn an_output_directory_that_cannot_be_is_named_with_the_cause() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("file");
+    fs::write(&file, "").unwrap();
+    for error in [
+        prepare_output(&file.join("out")).unwrap_err(),
+        RunWriter::create(&file.join("out"), "x").unwrap_err(),
+    ] {
+        assert_eq!(
+            error.to_string(),
+            format!("{}: the directory cannot be made: Not a directory", file.join("out").display())
+        );
+        assert_eq!(error.exit_code(), 2);
+    }
+}
