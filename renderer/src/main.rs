@@ -1,3 +1,7 @@
 //! The `manylight` program.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    manylight::cli::main()
+}

@@ -1,1 +1,119 @@
-//! Command line.
+//! Command line: arguments in, one exit code out. Each subcommand's handler is a file of its own.
+
+mod bake_recording;
+mod completions;
+mod console;
+mod devices;
+mod import_recording;
+mod interrupt;
+mod replay;
+mod scene;
+mod usage;
+
+pub use console::{Console, Progress};
+pub use interrupt::Interrupt;
+
+use crate::Result;
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Replays recordings of many-light scenes and measures, stage by stage, how clustered shading works.
+#[derive(Debug, Parser)]
+#[command(name = "manylight", version, long_version = LONG_VERSION, after_help = EXIT_CODES, max_term_width = 100)]
+#[command(arg_required_else_help = true)]
+struct Cli {
+    /// Neither progress bar nor notes: the result and errors alone.
+    #[arg(long, short, global = true)]
+    quiet: bool,
+
+    /// For machines: the result as JSON on standard output, an error as a JSON object on standard error.
+    #[arg(long, global = true)]
+    json: bool,
+
+    #[command(subcommand)]
+    command: Command,
+}
+
+const LONG_VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (", env!("MANYLIGHT_GIT_REVISION"), ")");
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0    done
+  1    the program or the driver misbehaved: a validation message, a lost device
+  2    something to be mended: a flag, a file, a missing device
+  130  interrupted; the frame was finished and what was complete is kept
+
+The environment variable RUST_LOG (warn, info, debug, ...) sets how much is logged to standard error.";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Replay a recording by one or more methods, and time and count every stage
+    Replay(Box<replay::Args>),
+    /// List the Vulkan devices, with the limits that matter
+    Devices,
+    /// Print a scene's triangles, materials, textures and bounds
+    Scene(scene::Args),
+    /// Turn a recording of the thesis's program (.bin) into JSON
+    ImportRecording(import_recording::Args),
+    /// Spline waypoints (position, target, time) to a recording
+    BakeRecording(bake_recording::Args),
+    /// Print a completion script for a shell
+    Completions(completions::Args),
+}
+
+/// Runs the program on the process's arguments.
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return usage::exit(&error),
+    };
+    let console = Console::new(cli.quiet, cli.json);
+    console.start_logging();
+    match dispatch(cli.command, &console) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            console.error(&error);
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+fn dispatch(command: Command, console: &Console) -> Result<()> {
+    match command {
+        Command::Replay(args) => replay::run(*args, console),
+        Command::Devices => devices::run(console),
+        Command::Scene(args) => scene::run(&args, console),
+        Command::ImportRecording(args) => import_recording::run(&args, console),
+        Command::BakeRecording(args) => bake_recording::run(&args, console),
+        Command::Completions(args) => completions::run(&args, console),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn arguments_are_declared_consistently() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn every_field_of_a_configuration_is_a_flag_of_replay() {
+        let mut cli = Cli::command();
+        let replay = cli.find_subcommand_mut("replay").unwrap();
+        let flags: Vec<&str> = replay.get_arguments().filter_map(|arg| arg.get_long()).collect();
+        let schema = crate::config::json_schema();
+        for field in schema["properties"].as_object().unwrap().keys().filter(|field| *field != "$schema") {
+            let flag = if field == "methods" { "method".into() } else { field.replace('_', "-") };
+            assert!(flags.contains(&flag.as_str()), "{field} has no flag");
+        }
+    }
+
+    #[test]
+    fn global_flags_stand_anywhere() {
+        let cli = Cli::try_parse_from(["manylight", "devices", "--json", "--quiet"]).unwrap();
+        assert!(cli.json && cli.quiet);
+    }
+}

@@ -1,0 +1,140 @@
+//! What the program says: results on standard output; errors, notes, logs and the progress bar on standard
+//! error.
+
+use crate::Error;
+use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde::Serialize;
+use std::fmt::Display;
+use std::io::{self, IsTerminal, Write};
+use tracing_subscriber::EnvFilter;
+
+/// Where output goes, and in which form.
+#[derive(Debug, Clone)]
+pub struct Console {
+    quiet: bool,
+    json: bool,
+    bars: MultiProgress,
+}
+
+impl Console {
+    /// `quiet` leaves progress and notes out; `json` is for machines, and quiet too.
+    pub fn new(quiet: bool, json: bool) -> Self {
+        let bars = MultiProgress::new();
+        if quiet || json || !io::stderr().is_terminal() {
+            bars.set_draw_target(ProgressDrawTarget::hidden());
+        }
+        Self { quiet: quiet || json, json, bars }
+    }
+
+    /// Sends log lines to standard error, as many as `RUST_LOG` asks for (default: warnings).
+    pub(super) fn start_logging(&self) {
+        let bars = self.bars.clone();
+        let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("warn"));
+        // A second subscriber (in tests) is not an error: the first goes on.
+        let _ = tracing_subscriber::fmt()
+            .with_env_filter(filter)
+            .with_ansi(io::stderr().is_terminal())
+            .with_writer(move || AboveBars { bars: bars.clone() })
+            .try_init();
+    }
+
+    /// Prints a command's result: its `Display` form, or JSON.
+    ///
+    /// # Errors
+    /// The result cannot be written as JSON.
+    pub fn result(&self, result: &(impl Display + Serialize)) -> crate::Result<()> {
+        if self.json {
+            let text = serde_json::to_string_pretty(result)
+                .map_err(|error| Error::Internal(format!("the result is not JSON: {error}")))?;
+            print(&format!("{text}\n"));
+        } else {
+            print(&format!("{}\n", result.to_string().trim_end()));
+        }
+        Ok(())
+    }
+
+    /// Prints a line that is good to know.
+    pub fn note(&self, text: &str) {
+        if !self.quiet {
+            self.bars.suspend(|| eprintln!("{text}"));
+        }
+    }
+
+    /// Prints an error as one line, or as one JSON object.
+    pub(super) fn error(&self, error: &Error) {
+        self.bars.suspend(|| print_error(&error.to_string(), kind(error), error.exit_code(), self.json));
+    }
+
+    /// A progress bar over `steps` steps; hidden where nobody would see it.
+    pub fn progress(&self, steps: u64) -> Progress {
+        let style = ProgressStyle::with_template("{msg:24} [{bar:40}] {pos}/{len} frames, {eta} left")
+            .unwrap_or_else(|_| ProgressStyle::default_bar())
+            .progress_chars("=> ");
+        Progress(self.bars.add(ProgressBar::new(steps).with_style(style)))
+    }
+}
+
+/// A progress bar; it goes when dropped.
+#[derive(Debug)]
+pub struct Progress(ProgressBar);
+
+impl Progress {
+    /// Says what is under way, such as a run's name.
+    pub fn say(&self, text: &str) {
+        self.0.set_message(text.to_owned());
+    }
+
+    /// One step is done.
+    pub fn advance(&self) {
+        self.0.inc(1);
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}
+
+/// Standard error, with the bars out of the way while a log line is written.
+struct AboveBars {
+    bars: MultiProgress,
+}
+
+impl Write for AboveBars {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.bars.suspend(|| io::stderr().write(bytes))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        io::stderr().flush()
+    }
+}
+
+/// Writes to standard output. A reader that has gone away (`| head`) is no error.
+pub(super) fn print(text: &str) {
+    let mut out = io::stdout().lock();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
+/// Writes `error: ...` on one line, or `{"error": {...}}`, to standard error.
+pub(super) fn print_error(message: &str, kind: &str, exit_code: u8, json: bool) {
+    let message = message.lines().map(str::trim).collect::<Vec<_>>().join(" ");
+    let line = if json {
+        serde_json::json!({ "error": { "kind": kind, "message": message, "exit_code": exit_code } })
+            .to_string()
+    } else {
+        format!("error: {message}")
+    };
+    let _ = writeln!(io::stderr(), "{line}");
+}
+
+fn kind(error: &Error) -> &'static str {
+    match error {
+        Error::Input(_) => "input",
+        Error::File { .. } => "file",
+        Error::Device(_) => "device",
+        Error::Internal(_) => "internal",
+        Error::Interrupted(_) => "interrupted",
+    }
+}

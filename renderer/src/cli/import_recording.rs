@@ -1,0 +1,36 @@
+//! `manylight import-recording`.
+
+use super::Console;
+use crate::{Error, Result};
+use clap::ValueEnum;
+use std::path::PathBuf;
+
+/// Arguments of `import-recording`.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The recording of the thesis's program.
+    #[arg(value_name = "FILE.bin")]
+    file: PathBuf,
+
+    /// Where the JSON goes [default: FILE.json beside it].
+    #[arg(long, value_name = "FILE.json")]
+    out: Option<PathBuf>,
+
+    /// Put the eyes of a head-mounted display on the recorded head.
+    #[arg(long, value_enum)]
+    hmd: Option<Hmd>,
+}
+
+/// Head-mounted displays with known eyes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Hmd {
+    /// HTC Vive.
+    Vive,
+}
+
+/// Decodes the recording and writes it as JSON.
+pub fn run(args: &Args, console: &Console) -> Result<()> {
+    let out = args.out.clone().unwrap_or_else(|| args.file.with_extension("json"));
+    console.note(&format!("{:?} to {}", args.hmd, out.display()));
+    Err(Error::Internal("import-recording is not connected yet".into()))
+}
