@@ -12,7 +12,8 @@ use super::palette::{Look, Surface};
 use super::patterns::Pattern;
 use super::texture::TextureSet;
 use crate::scene::{
-    AlphaMode, Bounds, Image, Instance, Material, Primitive, Sampler, Scene, TextureRef, TextureSlot, Wrap,
+    AlphaMode, Bounds, Image, Instance, Material, Primitive, Sampler, Scene, TextureRef, TextureSlot, Vertex,
+    Wrap,
 };
 
 /// Raise it whenever a generator or a texture changes, so that results of different scenes are told apart.
@@ -21,7 +22,7 @@ const GENERATOR_VERSION: u32 = 1;
 /// Collects chunks and their placements.
 #[derive(Default)]
 pub(super) struct Builder {
-    vertices: Vec<crate::scene::Vertex>,
+    vertices: Vec<Vertex>,
     indices: Vec<u32>,
     primitives: Vec<(Surface, Primitive)>,
     instances: Vec<Instance>,
@@ -44,6 +45,11 @@ impl Builder {
     pub(super) fn place(&mut self, model: &Model, place: &Place) {
         let world_from_object = place.matrix();
         self.instances.extend(model.0.clone().map(|primitive| Instance { primitive, world_from_object }));
+    }
+
+    /// Draws a model at a point, turned about the vertical by `turns`.
+    pub(super) fn put(&mut self, model: &Model, [x, y, z]: [f32; 3], turns: f64) {
+        self.place(model, &Place::at(x, y, z).turned(turns));
     }
 
     /// Stores and draws a chunk that occurs once.
@@ -70,8 +76,22 @@ impl Builder {
         self.primitives.push((surface, primitive));
     }
 
+    /// Hex SHA-256 over the scene's name, the generator's version and the placed geometry, little-endian.
+    fn digest(&self, name: &str) -> String {
+        let mut hash = Sha256::new();
+        hash.update(format!("manylight {name} {GENERATOR_VERSION}\n"));
+        hash.update(bytemuck::cast_slice::<_, u8>(&self.vertices));
+        hash.update(bytemuck::cast_slice::<_, u8>(&self.indices));
+        for instance in &self.instances {
+            hash.update(instance.primitive.to_le_bytes());
+            hash.update(bytemuck::bytes_of(&instance.world_from_object));
+        }
+        hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+
     /// The finished scene.
     pub(super) fn finish(self, name: &str) -> Scene {
+        let sha256 = self.digest(name);
         let surfaces: BTreeSet<Surface> = self.primitives.iter().map(|(surface, _)| *surface).collect();
         let surfaces: Vec<Surface> = surfaces.into_iter().collect();
         let (images, sets) = bake_patterns(&surfaces);
@@ -85,7 +105,7 @@ impl Builder {
             .collect();
         Scene {
             name: name.to_owned(),
-            sha256: digest(name, &self.vertices, &self.indices),
+            sha256,
             vertices: self.vertices,
             indices: self.indices,
             primitives,
@@ -95,15 +115,6 @@ impl Builder {
             lights: Vec::new(),
         }
     }
-}
-
-/// Hex SHA-256 over the scene's name, the generator's version and the geometry, little-endian.
-fn digest(name: &str, vertices: &[crate::scene::Vertex], indices: &[u32]) -> String {
-    let mut hash = Sha256::new();
-    hash.update(format!("manylight {name} {GENERATOR_VERSION}\n"));
-    hash.update(bytemuck::cast_slice::<_, u8>(vertices));
-    hash.update(bytemuck::cast_slice::<_, u8>(indices));
-    hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Where a pattern's images lie in the scene.

@@ -190,31 +190,49 @@ impl Mesh {
         });
     }
 
-    /// Sweeps a profile of (depth z, height y) points, from the bottom up, along x, and closes both ends.
+    /// Sweeps a profile of (depth z, height y) points along x and closes both ends. The profile goes from the
+    /// bottom up without a way down.
     pub(super) fn moulding(&mut self, profile: &[[f32; 2]], [x0, x1]: [f32; 2], cells: u32) {
         let lengths = arc_lengths(profile);
         let at = |x: f32, k: usize| Vec3::new(x, profile[k][1], profile[k][0]);
-        for k in 0..profile.len() - 1 {
+        for (k, length) in lengths[1..].iter().enumerate() {
             let (a, b) = (at(x0, k), at(x0, k + 1));
-            self.rect(a, [Vec3::X * (x1 - x0), b - a], [cells, 1], [x0, lengths[k]]);
+            self.rect(a, [Vec3::X * (x1 - x0), b - a], [cells, 1], [x0, length - (b - a).length()]);
         }
-        let right: Vec<Vec3> = (0..profile.len()).rev().map(|k| at(x1, k)).collect();
-        let left: Vec<Vec3> = (0..profile.len()).map(|k| at(x0, k)).collect();
-        self.polygon(&right, [-Vec3::Z, Vec3::Y]);
-        self.polygon(&left, [Vec3::Z, Vec3::Y]);
+        self.moulding_end(profile, x0, 1.0);
+        self.moulding_end(profile, x1, -1.0);
+    }
+
+    /// Closes a moulding at `x`; `side` is 1 at its left end, -1 at its right end.
+    fn moulding_end(&mut self, profile: &[[f32; 2]], x: f32, side: f32) {
+        let back = profile.iter().fold(f32::INFINITY, |back, p| back.min(p[0]));
+        let mut patch = Patch::new(0);
+        for (k, [z, y]) in profile.iter().enumerate() {
+            for z in [back, *z] {
+                patch.knots.push((Vec3::new(x, *y, z), [z * side, *y]));
+            }
+            if k > 0 {
+                let [a, b, c, d] = [-2, -1, 1, 0].map(|step| (2 * k as i32 + step) as u32);
+                let (first, second) =
+                    if side > 0.0 { ([a, b, c], [a, c, d]) } else { ([b, a, d], [b, d, c]) };
+                patch.triangle(first);
+                patch.triangle(second);
+            }
+        }
+        patch.finish(self);
     }
 
     /// Adds a copy of `other`, placed.
     pub(super) fn append(&mut self, other: &Self, place: &Place) {
         let base = self.vertices.len() as u32;
-        self.vertices.extend(other.vertices.iter().map(|vertex| Vertex {
-            position: place.point(vertex.position.into()).into(),
-            normal: place.vector(vertex.normal.into()).normalize().into(),
-            tangent: {
-                let [x, y, z, w] = vertex.tangent;
-                place.vector(Vec3::new(x, y, z)).normalize().extend(w).into()
-            },
-            ..*vertex
+        self.vertices.extend(other.vertices.iter().map(|vertex| {
+            let [x, y, z, w] = vertex.tangent;
+            Vertex {
+                position: place.point(vertex.position.into()).into(),
+                normal: place.vector(vertex.normal.into()).normalize().into(),
+                tangent: place.vector(Vec3::new(x, y, z)).normalize().extend(w).into(),
+                ..*vertex
+            }
         }));
         self.indices.extend(other.indices.iter().map(|index| index + base));
     }

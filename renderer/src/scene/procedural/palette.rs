@@ -129,11 +129,16 @@ impl Look {
     }
 
     const fn masked(self) -> Self {
-        Self { alpha: AlphaMode::Mask, double_sided: true, ..self }
+        Self { alpha: AlphaMode::Mask, ..self }.thin()
     }
 
     const fn blended(self) -> Self {
         Self { alpha: AlphaMode::Blend, ..self }
+    }
+
+    /// Seen from both sides.
+    const fn thin(self) -> Self {
+        Self { double_sided: true, ..self }
     }
 }
 
@@ -177,11 +182,11 @@ impl Surface {
             Self::Gold => Look::new(Pattern::Coat, 1.0, [1.0, 0.72, 0.28]).metal(1.0, 0.55),
             Self::Bronze => Look::new(Pattern::Coat, 1.5, [0.42, 0.28, 0.16]).metal(0.8, 1.0),
             Self::Embers => Look::new(Pattern::Embers, 1.0, WHITE).glowing(6.0),
-            Self::Meadow => Look::new(Pattern::Meadow, 6.0, WHITE),
+            Self::Meadow => Look::new(Pattern::Meadow, 9.0, WHITE),
             Self::Banner => Look::new(Pattern::Banner, 1.0, WHITE).masked(),
             Self::Vines => Look::new(Pattern::Vines, 1.0, WHITE).masked(),
             Self::Screen => Look::new(Pattern::Lattice, 1.0, WHITE).masked(),
-            Self::StainedGlass => Look::new(Pattern::Stained, 1.0, WHITE).blended(),
+            Self::StainedGlass => Look::new(Pattern::Stained, 1.0, WHITE).blended().thin(),
             Self::Water => Look::new(Pattern::Water, 5.0, WHITE).blended(),
         }
     }

@@ -3,5 +3,5 @@
 mod furniture;
 mod greenery;
 
-pub(super) use furniture::{bollard, chair, crate_box, kiosk, lamp, scooter, table};
+pub(super) use furniture::{bollard, crate_box, kiosk, lamp, scooter, terrace};
 pub(super) use greenery::{cypress, planter, tree};

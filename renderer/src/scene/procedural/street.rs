@@ -87,8 +87,8 @@ const FLIGHT: [[f32; 2]; 22] = [
 fn detail(size: Size) -> Detail {
     match size {
         Size::Small => Detail { step: 40.0, round: 8, leaves: 60, level: 0 },
-        Size::Medium => Detail { step: 0.6, round: 16, leaves: 700, level: 1 },
-        Size::Large => Detail { step: 0.17, round: 36, leaves: 5000, level: 2 },
+        Size::Medium => Detail { step: 0.38, round: 21, leaves: 1100, level: 1 },
+        Size::Large => Detail { step: 0.095, round: 42, leaves: 8000, level: 2 },
     }
 }
 

@@ -13,7 +13,7 @@ fn from_circle(x: f32, y: f32, radius: f32) -> f32 {
 pub(super) fn ironwork(u: f32, v: f32) -> Texel {
     let x = (u * 4.0).fract() - 0.5;
     let bar = 0.5 - x.abs() < 0.075;
-    let rail = v < 0.05 || v > 0.94 || (v - 0.80).abs() < 0.018;
+    let rail = !(0.05..=0.94).contains(&v) || (v - 0.80).abs() < 0.018;
     let ring = from_circle(x, (v - 0.42) * 2.2, 0.30) < 0.07;
     let small = from_circle(x, (v - 0.87) * 4.0, 0.2) < 0.1;
     let scroll = v < 0.2 && from_circle(x, (v - 0.05) * 3.0, 0.34) < 0.08;
@@ -29,8 +29,11 @@ pub(super) fn leaves(u: f32, v: f32) -> Texel {
     let mut texel = Texel::new([0.22, 0.34, 0.12], 0.75).covering(0.0);
     for k in 0..26 {
         let random = |salt: u32| hash(k, 17, salt);
-        let (sin, cos) = sin_cos(f64::from(random(3)));
         let (dx, dy) = (u - mix(0.14, 0.86, random(1)), v - mix(0.14, 0.86, random(2)));
+        if dx * dx + dy * dy > 0.15 * 0.15 {
+            continue;
+        }
+        let (sin, cos) = sin_cos(f64::from(random(3)));
         let (along, across) = (dx * cos + dy * sin, dy * cos - dx * sin);
         let length = mix(0.10, 0.15, random(4));
         let (a, b) = (along / length, across / (length * 0.52));
@@ -49,7 +52,7 @@ pub(super) fn stripes(u: f32, v: f32) -> Texel {
     let lobe = (stripe - 0.5) * 2.0;
     let hem = 0.10 * lobe * lobe;
     let weave = noise(u * 128.0, v * 128.0, 128, 311);
-    let red = (u * 6.0) as u32 % 2 == 0;
+    let red = ((u * 6.0) as u32).is_multiple_of(2);
     let color = if red { [0.92, 0.92, 0.90] } else { [0.96, 0.90, 0.78] };
     let tone = if red { 0.55 } else { 1.0 };
     Texel::new(shade(color, tone * (0.88 + 0.12 * weave)), 0.9).raised(0.001 * weave).covering(if v < hem {
@@ -82,17 +85,19 @@ pub(super) fn vines(u: f32, v: f32) -> Texel {
     const STEMS: i32 = 7;
     let mut texel = Texel::new([0.22, 0.32, 0.12], 0.8).covering(0.0);
     for stem in 0..STEMS {
-        let end = 0.6 * hash(stem, 1, 331);
+        let end = 0.05 + 0.5 * hash(stem, 1, 331);
         let sway = 0.03 * (noise(v * 6.0, stem as f32, 6, 332) - 0.5);
         let x = u - (stem as f32 + 0.5) / STEMS as f32 - sway;
         if v > end && x.abs() < 0.008 {
             texel = Texel::new([0.26, 0.20, 0.10], 0.9);
         }
         let (step, along) = ((v * 16.0).floor(), (v * 16.0).fract() - 0.5);
-        let side = if (step as i32 + stem) % 2 == 0 { 0.045 } else { -0.045 };
-        let (a, b) = ((x - side) / 0.055, along / 0.48);
+        let random = |salt: u32| hash(stem, step as i32, salt);
+        let side = mix(0.03, 0.055, random(334)) * if (step as i32 + stem) % 2 == 0 { 1.0 } else { -1.0 };
+        let (a, b) =
+            ((x - side) / 0.055, (along + mix(-0.15, 0.15, random(335))) / mix(0.3, 0.42, random(336)));
         if v > end && a * a + b * b < 1.0 {
-            let tone = mix(0.7, 1.3, hash(stem, step as i32, 333));
+            let tone = mix(0.7, 1.3, random(333));
             texel = Texel::new(shade([0.26, 0.42, 0.14], tone), 0.65).raised(0.012 * (1.0 - a * a));
         }
     }

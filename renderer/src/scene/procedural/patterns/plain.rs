@@ -100,6 +100,6 @@ pub(super) fn meadow(u: f32, v: f32) -> Texel {
     let (patch, blades) = (fractal(u, v, 4, 4, 211), fractal(u, v, 64, 2, 212));
     let grass = blend([0.18, 0.26, 0.10], [0.38, 0.44, 0.20], blades);
     let earth = blend([0.40, 0.33, 0.24], [0.56, 0.50, 0.40], blades);
-    let bare = smoothstep(0.52, 0.66, patch);
+    let bare = 0.55 * smoothstep(0.45, 0.75, patch);
     Texel::new(blend(grass, earth, bare), 0.95).raised(0.01 * blades + 0.01 * patch)
 }

@@ -60,7 +60,7 @@ pub(in super::super) fn lamp(detail: &Detail) -> Chunk {
 }
 
 /// A round café table, 0.72 m high, with two glasses and a bottle.
-pub(in super::super) fn table(detail: &Detail) -> Chunk {
+fn table(detail: &Detail) -> Chunk {
     let mut chunk = Chunk::default();
     let segments = detail.around(1.0, 8);
     let top = [[0.0, 0.69], [0.34, 0.69], [0.35, 0.70], [0.35, 0.715], [0.34, 0.72], [0.0, 0.72]];
@@ -88,7 +88,7 @@ fn tumbler(segments: u32) -> Mesh {
 }
 
 /// A wooden chair whose back is towards -z.
-pub(in super::super) fn chair(detail: &Detail) -> Chunk {
+fn chair(detail: &Detail) -> Chunk {
     let mut chunk = Chunk::default();
     let wood = chunk.on(Surface::Wood);
     wood.block(Vec3::new(-0.2, 0.43, -0.2), Vec3::new(0.2, 0.46, 0.2), true);
@@ -102,6 +102,16 @@ pub(in super::super) fn chair(detail: &Detail) -> Chunk {
     let segments = detail.around(0.4, 4);
     for (x, z, top) in [(-0.18, 0.18, 0.44), (0.18, 0.18, 0.44), (-0.18, -0.2, 0.92), (0.18, -0.2, 0.92)] {
         iron.rod([Vec3::new(x * 1.1, 0.0, z * 1.1), Vec3::new(x, top, z)], [0.014, 0.014], segments);
+    }
+    chunk
+}
+
+/// A café table with two chairs.
+pub(in super::super) fn terrace(detail: &Detail) -> Chunk {
+    let mut chunk = table(detail);
+    for turn in [0.24, 0.78] {
+        let place = Place::at(0.0, 0.0, 0.0).turned(turn).then(&Place::at(0.0, 0.0, -0.6));
+        chunk.append(&chair(detail), &place);
     }
     chunk
 }

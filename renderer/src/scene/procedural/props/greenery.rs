@@ -7,22 +7,27 @@ use super::super::maths::{Dice, Place};
 use super::super::mesh::{Chunk, Mesh};
 use super::super::palette::Surface;
 
-/// A cloud of leaf cards in an ellipsoid.
+/// A cloud of leaf cards in an ellipsoid, gathered in clumps.
 struct Crown {
     centre: Vec3,
     radii: Vec3,
     cards: u32,
     /// Side of a card, metres.
     side: f32,
+    /// 0 for an even crown, 1 for one of separate clumps.
+    clumped: f32,
 }
 
 impl Crown {
     /// Cards near the shell, fronts outward, tinted at random.
     fn grow(&self, mesh: &mut Mesh, dice: &mut Dice) {
+        let clumps: [Vec3; 11] = std::array::from_fn(|_| {
+            self.centre + dice.direction() * self.radii * self.clumped * dice.range(0.4, 0.55)
+        });
         for _ in 0..self.cards {
             let out = dice.direction();
-            let depth = 1.0 - 0.55 * dice.unit() * dice.unit();
-            let centre = self.centre + out * self.radii * depth;
+            let depth = (1.0 - 0.48 * self.clumped) * (1.0 - 0.5 * dice.unit() * dice.unit());
+            let centre = clumps[dice.below(11) as usize] + out * self.radii * depth;
             let facing = (out + dice.direction() * 0.7).normalize_or(out);
             let place = Place::upright(centre, facing).turned(f64::from(dice.unit()));
             let half = self.side * dice.range(0.4, 0.6);
@@ -54,6 +59,7 @@ pub(in super::super) fn tree(detail: &Detail, seed: u64) -> Chunk {
         radii: Vec3::new(1.45, 1.6, 1.45),
         cards: detail.leaves,
         side: leaf_side(detail.leaves, 7.4),
+        clumped: 1.0,
     };
     crown.grow(chunk.on(Surface::Foliage), &mut dice);
     chunk
@@ -65,8 +71,13 @@ pub(in super::super) fn cypress(detail: &Detail, seed: u64) -> Chunk {
     let mut chunk = Chunk::default();
     chunk.on(Surface::Bark).lathe(&[[0.2, 0.0], [0.12, 1.0], [0.04, 5.5]], detail.around(0.4, 5), true);
     let cards = detail.leaves;
-    let crown =
-        Crown { centre: Vec3::Y * 3.9, radii: Vec3::new(0.8, 3.3, 0.8), cards, side: leaf_side(cards, 7.4) };
+    let crown = Crown {
+        centre: Vec3::Y * 3.9,
+        radii: Vec3::new(0.8, 3.3, 0.8),
+        cards,
+        side: leaf_side(cards, 7.4),
+        clumped: 0.0,
+    };
     crown.grow(chunk.on(Surface::Foliage), &mut dice);
     chunk
 }
@@ -92,6 +103,7 @@ pub(in super::super) fn planter(detail: &Detail, seed: u64) -> Chunk {
         radii: Vec3::new(0.38, 0.42, 0.38),
         cards,
         side: leaf_side(cards, 1.6),
+        clumped: 0.5,
     };
     crown.grow(chunk.on(Surface::Foliage), &mut dice);
     chunk

@@ -146,7 +146,10 @@ impl Front<'_> {
                 iron.ball(post + Vec3::Y * 1.06, 0.045, 1.0, segments);
             }
         }
-        self.consoles([x0, x1], y, reach);
+        // Shops have their signs there.
+        if y > GROUND_FLOOR || !self.house.style.shops {
+            self.consoles([x0, x1], y, reach);
+        }
     }
 
     /// Stone brackets under a balcony.

@@ -19,8 +19,7 @@ struct Models {
     trees: [Model; 3],
     planters: [Model; 2],
     lamp: Model,
-    table: Model,
-    chair: Model,
+    terrace: Model,
     scooter: Model,
     crates: Model,
     bollard: Model,
@@ -32,8 +31,7 @@ impl Models {
             trees: [11, 12, 13].map(|seed| builder.model(props::tree(detail, seed))),
             planters: [21, 22].map(|seed| builder.model(props::planter(detail, seed))),
             lamp: builder.model(props::lamp(detail)),
-            table: builder.model(props::table(detail)),
-            chair: builder.model(props::chair(detail)),
+            terrace: builder.model(props::terrace(detail)),
             scooter: builder.model(props::scooter(detail)),
             crates: builder.model(props::crate_box(detail)),
             bollard: builder.model(props::bollard(detail)),
@@ -81,9 +79,9 @@ impl Pavement<'_> {
         [self.house.end(0, z).max(0.0) + 0.8, self.house.end(1, z).min(self.house.width) - 0.8]
     }
 
-    /// Things in a line along the kerb.
+    /// Things in a line along the kerb; scooters stand beyond it.
     fn kerbside(&mut self) {
-        let [x0, x1] = self.stretch(1.8);
+        let [x0, x1] = self.stretch(3.6);
         let step = 2.1;
         let count = ((x1 - x0) / step) as u32;
         for k in 0..count {
@@ -147,14 +145,9 @@ impl Pavement<'_> {
     }
 
     fn terrace(&mut self, x: f32) {
-        let turn = f64::from(self.dice.unit());
-        let table = self.at(x, PAVEMENT, 0.95).turned(turn);
-        self.builder.place(&self.models.table, &table);
-        for side in [0.27, 0.73] {
-            let place = self.at(x, PAVEMENT, 0.95).turned(side + f64::from(self.dice.range(-0.06, 0.06)));
-            let place = place.then(&Place::at(0.0, 0.0, -0.62));
-            self.builder.place(&self.models.chair, &place);
-        }
+        let turn = f64::from(self.dice.range(-0.08, 0.08) + 0.5 * self.dice.below(2) as f32);
+        let place = self.at(x, PAVEMENT, 1.05).turned(turn);
+        self.builder.place(&self.models.terrace, &place);
     }
 
     fn planter_or_crates(&mut self, x: f32) {

@@ -44,13 +44,13 @@ fn is_paved(centre: Vec3) -> bool {
 fn tile(corner: Vec3, detail: &Detail) -> Chunk {
     let mut chunk = Chunk::default();
     let cells = if detail.level == 0 { 2 } else { detail.cells(TILE * 0.9) };
-    let axes = [Vec3::X * TILE, Vec3::Z * -TILE];
-    let uv = [corner.x, -corner.z];
-    chunk.on(Surface::Road).relief(Vec3::Z * TILE, axes, [cells; 2], uv, |[u, v]| {
+    chunk.on(Surface::Road).surface([cells; 2], |u, v| {
+        let (x, z) = (corner.x + TILE * u, corner.z + TILE * (1.0 - v));
         // Dips worn into the road, and single setts that stand out.
-        let worn = noise(u * 0.3, v * 0.3, 1 << 20, 1);
-        let sett = noise(u * 3.1, v * 3.1, 1 << 20, 2);
-        0.05 * worn + 0.02 * sett
+        let worn = noise(x * 0.3, z * 0.3, 1 << 20, 1);
+        let sett = noise(x * 3.1, z * 3.1, 1 << 20, 2);
+        let lift = if detail.level == 0 { 0.0 } else { 0.05 * worn + 0.02 * sett };
+        (Vec3::new(TILE * u, lift, TILE * (1.0 - v)), [x, -z])
     });
     if detail.level > 0 {
         let mut cover = Chunk::default();
