@@ -3,12 +3,23 @@
 //! Units are metres, right-handed, +Y up, counter-clockwise front faces. Every loader ([`gltf`], [`obj`])
 //! and generator ([`procedural`]) ends in one [`Scene`].
 
+mod check;
+pub mod describe;
 pub mod gltf;
+pub mod image;
+mod mesh;
+mod mips;
 pub mod obj;
 pub mod procedural;
+mod source;
+mod tangents;
+
+use std::path::Path;
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Mat4, Vec3};
+
+use crate::{Error, Result};
 
 /// One vertex, as the GPU reads it (60 bytes, scalar layout).
 #[repr(C)]
@@ -198,7 +209,73 @@ pub struct Scene {
     pub lights: Vec<SceneLight>,
 }
 
+/// Reads a scene file: glTF 2.0 (.gltf, .glb) or Wavefront OBJ (.obj), told apart by extension.
+///
+/// # Errors
+/// One line that names the file and what is wrong with it: unreadable, corrupt, not supported, empty.
+pub fn load(path: &Path) -> Result<Scene> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    let scene = match extension.as_str() {
+        "gltf" | "glb" => gltf::load(path),
+        "obj" => obj::load(path),
+        _ => Err(Error::file(path, "is not a scene: give a .gltf, .glb or .obj file")),
+    }?;
+    scene.check().map_err(|message| Error::file(path, message))?;
+    Ok(scene)
+}
+
+/// The name of a scene read from `path`.
+fn file_stem(path: &Path) -> String {
+    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+impl Material {
+    /// What glTF gives a primitive without a material (glTF 2.0, section 3.9.7): white, rough metal.
+    pub fn plain(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            base_color: [1.0; 4],
+            metallic: 1.0,
+            roughness: 1.0,
+            emissive: [0.0; 3],
+            normal_scale: 1.0,
+            occlusion_strength: 1.0,
+            alpha_mode: AlphaMode::Opaque,
+            alpha_cutoff: 0.5,
+            double_sided: false,
+            textures: [None; 5],
+        }
+    }
+
+    /// The alpha, 0 to 255, from which on a texel of a masked material's base colour texture is kept
+    /// (vertex colours aside); `None` where alpha masks nothing.
+    fn texture_cutoff(&self) -> Option<u8> {
+        let masked = self.alpha_mode == AlphaMode::Mask && self.base_color[3] > 0.0;
+        masked.then(|| (self.alpha_cutoff / self.base_color[3] * 255.0).ceil().clamp(1.0, 255.0) as u8)
+    }
+}
+
+impl TextureRef {
+    /// The rows of the map that leaves coordinates as they are.
+    pub const IDENTITY: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+}
+
 impl Scene {
+    /// A scene without content.
+    fn empty(name: String) -> Self {
+        Self {
+            name,
+            sha256: String::new(),
+            vertices: Vec::new(),
+            indices: Vec::new(),
+            primitives: Vec::new(),
+            instances: Vec::new(),
+            materials: Vec::new(),
+            images: Vec::new(),
+            lights: Vec::new(),
+        }
+    }
+
     /// Triangles drawn, instances counted each time.
     pub fn triangle_count(&self) -> u64 {
         self.instances.iter().map(|i| u64::from(self.primitives[i.primitive as usize].index_count) / 3).sum()

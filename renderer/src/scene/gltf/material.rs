@@ -1,0 +1,277 @@
+//! Materials, textures and the images they need (glTF 2.0, sections 3.8 and 3.9).
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use gltf::json;
+use json::extensions::texture::TextureTransform;
+use json::validation::Checked;
+
+use super::super::image::{Content, Encoded, make_all};
+use super::super::source::SourceFiles;
+use super::super::{AlphaMode, Image, Material, Sampler, TextureRef, TextureSlot, Wrap};
+use super::document::Document;
+use super::uri::{self, Target};
+use crate::{Error, Result};
+
+/// TEXCOORD_n sets that a material reads, by slot of [`super::super::Vertex::uv`].
+pub(super) type UvSets = [Option<u32>; 2];
+
+/// The materials of a document.
+pub(super) struct Materials {
+    /// As in the document; the default one is appended where it is needed.
+    pub list: Vec<Material>,
+    /// By material.
+    pub uv_sets: Vec<UvSets>,
+    /// What [`TextureRef::image`] counts: an image of the document and how it is read.
+    images: Vec<(usize, Content)>,
+    default: Option<u32>,
+}
+
+impl Materials {
+    /// Reads all materials; images are only noted.
+    pub fn read(document: &Document) -> Result<Self> {
+        let mut reader = Reader { document, images: Vec::new(), image_of: BTreeMap::new() };
+        let mut this = Self { list: Vec::new(), uv_sets: Vec::new(), images: Vec::new(), default: None };
+        for (i, json) in document.root.materials.iter().enumerate() {
+            let name = json.name.clone().unwrap_or_else(|| format!("material {i}"));
+            let (material, sets) = reader
+                .material(name, json)
+                .map_err(|message| document.error(format!("materials[{i}] {message}")))?;
+            this.list.push(material);
+            this.uv_sets.push(sets);
+        }
+        this.images = reader.images;
+        Ok(this)
+    }
+
+    /// The material of primitives that name none.
+    pub fn default_material(&mut self) -> u32 {
+        *self.default.get_or_insert_with(|| {
+            self.list.push(Material::plain("default"));
+            self.uv_sets.push([None; 2]);
+            self.list.len() as u32 - 1
+        })
+    }
+
+    /// Reads the images that materials use, in the document's order, and decodes them on all cores.
+    pub fn load_images(&self, document: &Document, files: &mut SourceFiles) -> Result<Vec<Image>> {
+        let used: BTreeMap<usize, ()> = self.images.iter().map(|&(image, _)| (image, ())).collect();
+        let mut sources = BTreeMap::new();
+        for image in used.into_keys() {
+            sources.insert(image, Source::read(document, files, image)?);
+        }
+        make_all(&self.images, |&(image, content)| {
+            let source = &sources[&image];
+            let encoded = Encoded { name: &source.name, file: &source.file, bytes: &source.bytes };
+            let pixels = encoded.decode()?;
+            Ok(Image::with_mips(&source.name, pixels.size, pixels.texels, content))
+        })
+    }
+}
+
+/// An encoded image.
+struct Source<'a> {
+    name: String,
+    file: PathBuf,
+    bytes: Cow<'a, [u8]>,
+}
+
+impl<'a> Source<'a> {
+    fn read(document: &'a Document, files: &mut SourceFiles, index: usize) -> Result<Self> {
+        let fail = |message: &str| document.error(format!("images[{index}] {message}"));
+        let image = &document.root.images[index];
+        let name = image.name.clone().unwrap_or_else(|| format!("images[{index}]"));
+        let inside = |bytes| Self { name: name.clone(), file: document.path.clone(), bytes };
+        match (&image.uri, image.buffer_view) {
+            (_, Some(view)) => Ok(inside(Cow::Borrowed(document.view(view).map_err(|e| fail(&e))?.0))),
+            (None, None) => Err(fail("has neither a uri nor a bufferView")),
+            (Some(uri), None) => match uri::resolve(uri).map_err(|e| fail(&e))? {
+                Target::Data(bytes) => Ok(inside(Cow::Owned(bytes))),
+                Target::File(file) => {
+                    let path = uri::beside(&document.path, &file);
+                    let bytes = files.read(&path).map_err(|e| used_by(e, document, index))?;
+                    let name = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy().into_owned();
+                    Ok(Self { name, file: path, bytes: Cow::Owned(bytes) })
+                }
+            },
+        }
+    }
+}
+
+fn used_by(error: Error, document: &Document, index: usize) -> Error {
+    match error {
+        Error::File { path, message } => Error::File {
+            path,
+            message: format!("{message} (images[{index}] of {})", document.path.display()),
+        },
+        other => other,
+    }
+}
+
+/// A texture as the document's material refers to it.
+struct Use<'a> {
+    slot: TextureSlot,
+    texture: json::Index<json::Texture>,
+    /// TEXCOORD_n.
+    set: u32,
+    transform: Option<Cow<'a, TextureTransform>>,
+}
+
+impl<'a> Use<'a> {
+    fn new(slot: TextureSlot, info: &'a json::texture::Info) -> Self {
+        let transform = info.extensions.as_ref().and_then(|e| e.texture_transform.as_ref());
+        Self { slot, texture: info.index, set: info.tex_coord, transform: transform.map(Cow::Borrowed) }
+    }
+}
+
+struct Reader<'a> {
+    document: &'a Document,
+    images: Vec<(usize, Content)>,
+    /// By image of the document and kind of content.
+    image_of: BTreeMap<(usize, u8), u32>,
+}
+
+impl<'a> Reader<'a> {
+    fn material(&mut self, name: String, json: &'a json::Material) -> Result<(Material, UvSets), String> {
+        let Checked::Valid(alpha_mode) = json.alpha_mode else {
+            return Err("has an unknown alphaMode".into());
+        };
+        let strength = json.extensions.as_ref().and_then(|e| e.emissive_strength.as_ref());
+        let strength = strength.map_or(1.0, |e| e.emissive_strength.0);
+        let pbr = &json.pbr_metallic_roughness;
+        let mut material = Material {
+            name,
+            base_color: pbr.base_color_factor.0,
+            metallic: pbr.metallic_factor.0,
+            roughness: pbr.roughness_factor.0,
+            emissive: json.emissive_factor.0.map(|factor| factor * strength),
+            normal_scale: json.normal_texture.as_ref().map_or(1.0, |t| t.scale),
+            occlusion_strength: json.occlusion_texture.as_ref().map_or(1.0, |t| t.strength.0),
+            alpha_mode: match alpha_mode {
+                json::material::AlphaMode::Opaque => AlphaMode::Opaque,
+                json::material::AlphaMode::Mask => AlphaMode::Mask,
+                json::material::AlphaMode::Blend => AlphaMode::Blend,
+            },
+            alpha_cutoff: json.alpha_cutoff.unwrap_or_default().0,
+            double_sided: json.double_sided,
+            textures: [None; 5],
+        };
+        let uses = texture_uses(json)?;
+        let sets = uv_sets(&uses)?;
+        for texture in &uses {
+            let reference = self.texture(texture, &sets, content(&material, texture.slot))?;
+            material.textures[texture.slot as usize] = Some(reference);
+        }
+        Ok((material, sets))
+    }
+
+    fn texture(&mut self, texture: &Use, sets: &UvSets, content: Content) -> Result<TextureRef, String> {
+        let root = &self.document.root;
+        let json = self.document.get(&root.textures, "textures", texture.texture)?;
+        let (index, image) = (texture.texture.value(), json.source);
+        if image.value() == u32::MAX as usize {
+            return Err(format!("uses textures[{index}], which has no PNG or JPEG source"));
+        }
+        self.document.get(&root.images, "images", image)?;
+        let sampler = match json.sampler {
+            Some(sampler) => read_sampler(self.document.get(&root.samplers, "samplers", sampler)?),
+            None => Sampler { wrap: [Wrap::Repeat; 2], nearest: false },
+        };
+        Ok(TextureRef {
+            image: self.image(image.value(), content),
+            sampler,
+            uv_slot: u32::from(sets[0] != Some(texture.set)),
+            uv_transform: texture.transform.as_deref().map_or(TextureRef::IDENTITY, matrix),
+        })
+    }
+
+    /// The place of an image with a content; colour and data are two images.
+    fn image(&mut self, index: usize, content: Content) -> u32 {
+        let kind = match content {
+            Content::Color { .. } => 0,
+            Content::Data => 1,
+            Content::Normal => 2,
+        };
+        let place = *self.image_of.entry((index, kind)).or_insert(self.images.len() as u32);
+        match self.images.get_mut(place as usize) {
+            None => self.images.push((index, content)),
+            // Opaque materials may share it: they read no alpha.
+            Some((_, held)) => *held = (*held).max(content),
+        }
+        place
+    }
+}
+
+/// What a texture of `material` holds.
+fn content(material: &Material, slot: TextureSlot) -> Content {
+    match slot {
+        TextureSlot::BaseColor => Content::Color { cutoff: material.texture_cutoff() },
+        TextureSlot::Emissive => Content::Color { cutoff: None },
+        TextureSlot::Normal => Content::Normal,
+        TextureSlot::MetallicRoughness | TextureSlot::Occlusion => Content::Data,
+    }
+}
+
+fn texture_uses(json: &json::Material) -> Result<Vec<Use<'_>>, String> {
+    let pbr = &json.pbr_metallic_roughness;
+    let mut uses: Vec<Use> = Vec::new();
+    uses.extend(pbr.base_color_texture.as_ref().map(|info| Use::new(TextureSlot::BaseColor, info)));
+    let metallic_roughness = pbr.metallic_roughness_texture.as_ref();
+    uses.extend(metallic_roughness.map(|info| Use::new(TextureSlot::MetallicRoughness, info)));
+    uses.extend(json.emissive_texture.as_ref().map(|info| Use::new(TextureSlot::Emissive, info)));
+    if let Some(normal) = &json.normal_texture {
+        let transform = other_transform(normal.extensions.as_ref().map(|e| &e.others))?;
+        uses.push(Use { slot: TextureSlot::Normal, texture: normal.index, set: normal.tex_coord, transform });
+    }
+    if let Some(occlusion) = &json.occlusion_texture {
+        let transform = other_transform(occlusion.extensions.as_ref().map(|e| &e.others))?;
+        let (slot, texture, set) = (TextureSlot::Occlusion, occlusion.index, occlusion.tex_coord);
+        uses.push(Use { slot, texture, set, transform });
+    }
+    for texture in &mut uses {
+        let replaced = texture.transform.as_ref().and_then(|transform| transform.tex_coord);
+        texture.set = replaced.unwrap_or(texture.set);
+    }
+    Ok(uses)
+}
+
+/// KHR_texture_transform where the crate has no field for it.
+fn other_transform<'a>(
+    extensions: Option<&serde_json::Map<String, serde_json::Value>>,
+) -> Result<Option<Cow<'a, TextureTransform>>, String> {
+    let transform = extensions.and_then(|others| others.get("KHR_texture_transform"));
+    let parsed = transform.map(|json| serde_json::from_value(json.clone())).transpose();
+    parsed.map(|t| t.map(Cow::Owned)).map_err(|e| format!("has a broken KHR_texture_transform: {e}"))
+}
+
+/// The distinct sets in use, the lower in slot 0.
+fn uv_sets(uses: &[Use]) -> Result<UvSets, String> {
+    let mut sets: Vec<_> = uses.iter().map(|texture| texture.set).collect();
+    sets.sort_unstable();
+    sets.dedup();
+    if sets.len() > 2 {
+        let names: Vec<_> = sets.iter().map(|set| format!("TEXCOORD_{set}")).collect();
+        return Err(format!("reads {}; at most two sets of texture coordinates work", names.join(", ")));
+    }
+    Ok([sets.first().copied(), sets.get(1).copied()])
+}
+
+fn read_sampler(json: &json::texture::Sampler) -> Sampler {
+    let wrap = |mode| match mode {
+        Checked::Valid(json::texture::WrappingMode::ClampToEdge) => Wrap::Clamp,
+        Checked::Valid(json::texture::WrappingMode::MirroredRepeat) => Wrap::Mirror,
+        Checked::Valid(json::texture::WrappingMode::Repeat) | Checked::Invalid => Wrap::Repeat,
+    };
+    let nearest = json.mag_filter == Some(Checked::Valid(json::texture::MagFilter::Nearest));
+    Sampler { wrap: [wrap(json.wrap_s), wrap(json.wrap_t)], nearest }
+}
+
+/// Translation * rotation * scale, as the extension's text multiplies them.
+fn matrix(transform: &TextureTransform) -> [[f32; 3]; 2] {
+    let (sin, cos) = transform.rotation.0.sin_cos();
+    let [u_scale, v_scale] = transform.scale.0;
+    let [u_offset, v_offset] = transform.offset.0;
+    [[cos * u_scale, sin * v_scale, u_offset], [-sin * u_scale, cos * v_scale, v_offset]]
+}

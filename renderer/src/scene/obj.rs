@@ -1,1 +1,0 @@
-//! Wavefront OBJ with MTL.
