@@ -80,7 +80,7 @@ impl Scene {
             .ok_or("has indices beyond the end of the index array")?;
         let vertices = range(&self.vertices, primitive.vertex_offset, primitive.vertex_count)
             .ok_or("has vertices beyond the end of the vertex array")?;
-        if primitive.index_count % 3 != 0 {
+        if !primitive.index_count.is_multiple_of(3) {
             return Err(format!("has {} indices, which do not make whole triangles", primitive.index_count));
         }
         if let Some(index) = indices.iter().max().filter(|&&i| i >= primitive.vertex_count) {

@@ -203,7 +203,8 @@ mod tests {
     #[test]
     fn validation_finds_every_kind_of_dangling_index() {
         assert_eq!(two_quads().validate().map_err(|e| e.to_string()), Ok(()));
-        let broken: [(fn(&mut Scene), &str); 8] = [
+        type Break = fn(&mut Scene);
+        let broken: [(Break, &str); 8] = [
             (|s| s.indices[1] = 4, "primitive 0 uses vertex 4 of 4"),
             (|s| s.primitives[0].index_count = 9, "primitive 0 has indices beyond the end"),
             (|s| s.primitives[0].vertex_offset = 1, "primitive 0 has vertices beyond the end"),

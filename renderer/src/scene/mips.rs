@@ -132,16 +132,25 @@ fn average_data(taps: &[Tap]) -> [u8; 4] {
     std::array::from_fn(|c| mean(taps, |texel| texel[c].into()) as u8)
 }
 
-/// The mean direction, made a unit vector again; straight up where directions cancel.
 fn average_normal(taps: &[Tap]) -> [u8; 4] {
-    let sum = |c: usize| -> f32 {
-        taps.iter().map(|(texel, weight)| (f32::from(texel[c]) * 2.0 - 255.0) * *weight as f32).sum()
-    };
-    let [x, y, z] = [sum(0), sum(1), sum(2)];
+    let sum = |c: usize| taps.iter().map(|(texel, weight)| direction(texel[c]) * *weight as f32).sum();
+    unit_normal([sum(0), sum(1), sum(2)], mean(taps, |texel| texel[3].into()) as u8)
+}
+
+/// A code of a normal map as a number, 255 for 1.
+fn direction(code: u8) -> f32 {
+    f32::from(code) * 2.0 - 255.0
+}
+
+/// Encodes the mean direction as a unit vector again; straight up where directions cancel.
+fn unit_normal([x, y, z]: [f32; 3], alpha: u8) -> [u8; 4] {
     let length = (x * x + y * y + z * z).sqrt();
-    let encode = |v: f32| (v / length * 127.5 + 127.5).round() as u8;
-    let alpha = mean(taps, |texel| texel[3].into()) as u8;
-    if length > 0.0 { [encode(x), encode(y), encode(z), alpha] } else { [128, 128, 255, alpha] }
+    if length == 0.0 {
+        return [128, 128, 255, alpha];
+    }
+    let scale = 127.5 / length;
+    let encode = |v: f32| (v * scale + 128.0) as u8;
+    [encode(x), encode(y), encode(z), alpha]
 }
 
 fn color_of_four(texels: [[u8; 4]; 4]) -> [u8; 4] {
@@ -158,7 +167,9 @@ fn data_of_four(texels: [[u8; 4]; 4]) -> [u8; 4] {
 }
 
 fn normal_of_four(texels: [[u8; 4]; 4]) -> [u8; 4] {
-    average_normal(&texels.map(|texel| (texel, 1)))
+    let value = |i: usize, c: usize| direction(texels[i][c]);
+    let sum = |c: usize| value(0, c) + value(1, c) + value(2, c) + value(3, c);
+    unit_normal([sum(0), sum(1), sum(2)], mean_of_four(&texels, 3))
 }
 
 fn mean_of_four(texels: &[[u8; 4]; 4], c: usize) -> u8 {
@@ -172,7 +183,7 @@ fn coverage(texels: &[u8], cutoff: u8) -> f64 {
     texels.iter().filter(|t| t[3] >= cutoff).count() as f64 / texels.len() as f64
 }
 
-/// Scales a level's alphas until the alpha test keeps the share it keeps of the image itself, so that
+/// Scales a level's alphas up until the alpha test keeps the share it keeps of the image itself, so that
 /// foliage does not thin out with distance (Castaño, "Computing Alpha Mipmaps", 2010).
 fn keep_coverage(mip: &mut [u8], cutoff: u8, coverage: f64) {
     let mut histogram = [0_usize; 256];
@@ -183,8 +194,8 @@ fn keep_coverage(mip: &mut [u8], cutoff: u8, coverage: f64) {
         kept += histogram[alpha];
         kept >= wanted
     });
-    // No scale keeps nothing; and with too few texels that are not wholly clear, there is nothing to scale.
-    let Some(threshold) = threshold.filter(|_| wanted > 0) else { return };
+    // `None`: too few texels are not wholly clear. Never scaled down: that only brings solid texels to the edge.
+    let Some(threshold) = threshold.filter(|&threshold| threshold < usize::from(cutoff)) else { return };
     for texel in mip.as_chunks_mut::<4>().0 {
         let scaled = (usize::from(texel[3]) * usize::from(cutoff)).div_ceil(threshold);
         texel[3] = scaled.min(255) as u8;
@@ -288,5 +299,7 @@ mod tests {
         assert_eq!(coverage(&plain[1], 128), 0.0);
         assert!(coverage(&masked[1], 128) >= 0.25);
         assert_eq!(masked[0], plain[0]);
+        let solid = chain([4, 4], vec![255; 64], Content::Color { cutoff: Some(128) });
+        assert!(solid.iter().flatten().all(|&code| code == 255));
     }
 }

@@ -43,6 +43,7 @@ impl Document {
         let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
         let root = json::Root::from_slice(json).map_err(|e| fail(format!("is not valid glTF: {e}")))?;
         check_version(&root).map_err(fail)?;
+        note_ignored(&root, path);
         let mut document = Self { path: path.to_owned(), root, buffers: Vec::new() };
         document.buffers = document.read_buffers(binary, files)?;
         Ok(document)
@@ -115,6 +116,14 @@ fn check_version(root: &json::Root) -> Result<(), String> {
     match unknown.as_slice() {
         [] => Ok(()),
         names => Err(format!("requires {}, which is not supported; export without", names.join(", "))),
+    }
+}
+
+fn note_ignored(root: &json::Root, path: &Path) {
+    let ignored = root.extensions_used.iter().map(String::as_str).filter(|name| !SUPPORTED.contains(name));
+    let ignored: Vec<_> = ignored.collect();
+    if !ignored.is_empty() {
+        tracing::info!("{}: drawn without {}", path.display(), ignored.join(", "));
     }
 }
 

@@ -214,7 +214,7 @@ fn triangles(mode: Mode, indices: Vec<u32>) -> Result<Vec<u32>, String> {
             .map(|(i, v)| if i % 2 == 0 { [v[0], v[1], v[2]] } else { [v[0], v[2], v[1]] })
             .collect(),
         Mode::TriangleFan => indices.windows(2).skip(1).map(|v| [v[0], v[1], indices[0]]).collect(),
-        _ if indices.len() % 3 != 0 => {
+        _ if !indices.len().is_multiple_of(3) => {
             return Err(format!("has {} indices, which do not make whole triangles", indices.len()));
         }
         _ => return Ok(indices),

@@ -33,13 +33,13 @@ pub(super) struct Materials {
 
 impl Materials {
     /// Converts what tobj parsed from `library`; images are only noted.
-    pub fn new(library: &Library, parsed: &[tobj::Material]) -> Result<Self> {
+    pub fn new(library: &Library, parsed: &[tobj::Material]) -> Self {
         let mut this = Self { list: Vec::new(), recipes: Vec::new(), users: BTreeMap::new() };
         for (mtl, file) in parsed.iter().zip(&library.files) {
             let material = this.convert(mtl, file);
             this.list.push(material);
         }
-        Ok(this)
+        this
     }
 
     /// Appends the material of faces without one.

@@ -37,7 +37,7 @@ pub fn load(path: &Path) -> Result<Scene> {
     models.retain(|model| !model.mesh.indices.is_empty());
     warn_of_missing(path, &source.materials, &parsed);
 
-    let mut materials = Materials::new(&library, &parsed)?;
+    let mut materials = Materials::new(&library, &parsed);
     let mut scene = Scene::empty(file_stem(path));
     scene.images = materials.load_images(&mut files)?;
     if models.iter().any(|model| model.mesh.material_id.is_none()) {

@@ -114,7 +114,7 @@ impl Asset {
 
     pub fn load(&self) -> crate::Result<Scene> {
         let folder = Folder::new();
-        load(&folder.write("scene.glb", &self.glb()))
+        load(&folder.write("scene.glb", self.glb()))
     }
 
     pub fn vertices(&self) -> Vec<Vertex> {
