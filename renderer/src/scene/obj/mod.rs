@@ -1,6 +1,6 @@
 //! Wavefront OBJ with MTL.
 //!
-//! Parsed by `tobj` from text that [`text`] and [`mtl`] have checked line by line, because tobj's errors give
+//! Parsed by `tobj` from text that `text` and `mtl` have checked line by line, because tobj's errors give
 //! no line and some input makes it panic or misplace coordinates. Polygons become fans. OBJ says nothing of
 //! back faces, so all are drawn; colours are taken as linear, images as sRGB.
 
