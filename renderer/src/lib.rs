@@ -8,20 +8,30 @@
 //! ```
 //!
 //! Nothing flows back: scene and recording know no Vulkan, the maths in [`geometry`] knows neither files
-//! nor GPU, [`output`] knows no passes. Start reading at `frame`.
+//! nor GPU, [`output`] knows no passes. Start reading at [`frame`].
 
 pub mod cli;
+pub mod clustering;
 pub mod config;
 pub mod cpu;
+pub mod draw_list;
 pub mod error;
+pub mod frame;
 pub mod geometry;
+pub mod gpu_interface;
+pub mod gpu_scene;
 pub mod gpu_types;
+pub mod layouts;
 pub mod lights;
 pub mod measure;
 pub mod methods;
 pub mod output;
+pub mod pass;
+pub mod passes;
+pub mod pipelines;
 pub mod rain;
 pub mod recording;
+pub mod replay;
 pub mod scene;
 pub mod views;
 pub mod vk;

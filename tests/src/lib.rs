@@ -1,1 +1,110 @@
-//! Shared helpers of the whole-program tests.
+//! What the whole-program tests share: running the binary, running the library, reference data.
+
+use flate2::read::GzDecoder;
+use manylight::config::Config;
+use manylight::measure::{ClusterLists, FrameCounts, FrameTimes, ViewPixels};
+use manylight::output::{PlannedRun, planned_runs};
+use manylight::replay::{Inputs, RunResult, RunSink, Watch, replay};
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::atomic::AtomicBool;
+
+/// The environment variable that rewrites golden files instead of comparing with them.
+pub const BLESS: &str = "MANYLIGHT_BLESS";
+
+/// Whether golden files are being rewritten.
+pub fn blessing() -> bool {
+    std::env::var_os(BLESS).is_some()
+}
+
+/// A file of `tests/data`.
+pub fn data(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(path)
+}
+
+/// The unpacked bytes of a gzip file of `tests/data`, named without its `.gz`.
+pub fn unpacked(path: &str) -> Vec<u8> {
+    let mut bytes = vec![];
+    let file = File::open(data(&format!("{path}.gz"))).expect("a file of tests/data");
+    GzDecoder::new(file).read_to_end(&mut bytes).expect("a gzip file");
+    bytes
+}
+
+/// A command that runs the binary, which is built beside the tests.
+///
+/// # Panics
+/// Where it was not built: `cargo test` alone does not build the binary of another package.
+pub fn manylight() -> Command {
+    let test = std::env::current_exe().expect("the path of this test");
+    let directory = test.ancestors().nth(2).expect("target/<profile>/deps/<test>");
+    let binary = directory.join(format!("manylight{}", std::env::consts::EXE_SUFFIX));
+    assert!(binary.is_file(), "build the program first: cargo build --release --package manylight");
+    Command::new(binary)
+}
+
+/// One run with all it measured.
+pub struct Run {
+    /// What was run.
+    pub planned: PlannedRun,
+    /// Counters by frame.
+    pub counts: Vec<FrameCounts>,
+    /// Times by frame and run.
+    pub times: Vec<FrameTimes>,
+    /// Images by frame.
+    pub images: Vec<(u32, Vec<ViewPixels>)>,
+    /// Lists by frame and clustering.
+    pub lists: Vec<ClusterLists>,
+    /// What the run says of itself.
+    pub result: RunResult,
+}
+
+#[derive(Default)]
+struct Collect {
+    images: Vec<(u32, Vec<ViewPixels>)>,
+    lists: Vec<ClusterLists>,
+    runs: Vec<Run>,
+}
+
+impl RunSink for Collect {
+    fn begin(&mut self, _: &PlannedRun) -> manylight::Result<()> {
+        Ok(())
+    }
+
+    fn images(&mut self, frame: u32, views: &[ViewPixels]) -> manylight::Result<()> {
+        self.images.push((frame, views.to_vec()));
+        Ok(())
+    }
+
+    fn lists(&mut self, lists: ClusterLists) -> manylight::Result<()> {
+        self.lists.push(lists);
+        Ok(())
+    }
+
+    fn finish(&mut self, planned: &PlannedRun, mut result: RunResult) -> manylight::Result<()> {
+        self.runs.push(Run {
+            planned: planned.clone(),
+            counts: std::mem::take(&mut result.counts),
+            times: std::mem::take(&mut result.times),
+            images: std::mem::take(&mut self.images),
+            lists: std::mem::take(&mut self.lists),
+            result,
+        });
+        Ok(())
+    }
+}
+
+/// Replays `config` by the library, with the validation layers on, and keeps everything.
+///
+/// # Panics
+/// Where the replay fails.
+pub fn run(mut config: Config) -> Vec<Run> {
+    config.validate = true;
+    let inputs = Inputs::load(&config).unwrap_or_else(|error| panic!("{error}"));
+    let watch = Watch { interrupt: &AtomicBool::new(false), progress: &|| {} };
+    let mut collect = Collect::default();
+    replay(&config, &inputs, &planned_runs(&config), &watch, &mut collect)
+        .unwrap_or_else(|error| panic!("{error}"));
+    collect.runs
+}

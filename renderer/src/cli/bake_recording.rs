@@ -1,7 +1,7 @@
 //! `manylight bake-recording`.
 
 use super::Console;
-use crate::{Error, Result};
+use crate::{Result, recording};
 use std::path::PathBuf;
 
 /// Arguments of `bake-recording`.
@@ -19,6 +19,8 @@ pub struct Args {
 /// Splines the waypoints and writes the recording.
 pub fn run(args: &Args, console: &Console) -> Result<()> {
     let out = args.out.clone().unwrap_or_else(|| args.waypoints.with_extension("recording.json"));
-    console.note(&format!("to {}", out.display()));
-    Err(Error::Internal("bake-recording is not connected yet".into()))
+    let recording = recording::bake(&args.waypoints)?;
+    recording.save(&out)?;
+    console.note(&format!("{} frames written to {}", recording.frame_count(), out.display()));
+    Ok(())
 }

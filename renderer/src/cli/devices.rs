@@ -1,9 +1,10 @@
 //! `manylight devices`.
 
 use super::Console;
-use crate::{Error, Result};
+use crate::Result;
+use crate::vk::DeviceListing;
 
 /// Lists the Vulkan devices.
-pub fn run(_console: &Console) -> Result<()> {
-    Err(Error::Internal("devices is not connected yet".into()))
+pub fn run(console: &Console) -> Result<()> {
+    console.result(&DeviceListing::new()?)
 }

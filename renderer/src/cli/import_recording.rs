@@ -1,7 +1,7 @@
 //! `manylight import-recording`.
 
 use super::Console;
-use crate::{Error, Result};
+use crate::{Result, recording};
 use clap::ValueEnum;
 use std::path::PathBuf;
 
@@ -31,6 +31,9 @@ enum Hmd {
 /// Decodes the recording and writes it as JSON.
 pub fn run(args: &Args, console: &Console) -> Result<()> {
     let out = args.out.clone().unwrap_or_else(|| args.file.with_extension("json"));
-    console.note(&format!("{:?} to {}", args.hmd, out.display()));
-    Err(Error::Internal("import-recording is not connected yet".into()))
+    let hmd = args.hmd.map(|Hmd::Vive| recording::Hmd::vive());
+    let recording = recording::import_bin(&args.file, &recording::ImportOptions { hmd })?;
+    recording.save(&out)?;
+    console.note(&format!("{} frames written to {}", recording.frame_count(), out.display()));
+    Ok(())
 }

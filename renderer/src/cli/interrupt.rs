@@ -30,6 +30,11 @@ impl Interrupt {
         self.0.swap(true, Ordering::SeqCst)
     }
 
+    /// The flag, for those who poll it.
+    pub fn flag(&self) -> &AtomicBool {
+        &self.0
+    }
+
     /// Whether the flag is raised.
     pub fn requested(&self) -> bool {
         self.0.load(Ordering::SeqCst)

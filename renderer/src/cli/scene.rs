@@ -1,7 +1,8 @@
 //! `manylight scene`.
 
 use super::Console;
-use crate::{Error, Result};
+use crate::Result;
+use crate::replay::inputs::load_scene;
 
 /// Arguments of `scene`.
 #[derive(Debug, clap::Args)]
@@ -12,6 +13,6 @@ pub struct Args {
 }
 
 /// Loads the scene and prints what it holds.
-pub fn run(args: &Args, _console: &Console) -> Result<()> {
-    Err(Error::Internal(format!("scene {} is not connected yet", args.scene)))
+pub fn run(args: &Args, console: &Console) -> Result<()> {
+    console.result(&load_scene(&args.scene)?.describe())
 }

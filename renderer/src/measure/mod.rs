@@ -1,6 +1,10 @@
 //! What a run measures, as plain data: counters and histograms of the atemporal run, stage times of the
 //! temporal runs.
 
+mod capacity;
+mod lists;
 mod record;
 
+pub use capacity::{Capacities, GrowthEvent};
+pub use lists::ClusterLists;
 pub use record::{ClusterRecord, ClusteringCounts, FrameCounts, FrameTimes, StageTime, ViewPixels};

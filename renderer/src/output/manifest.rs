@@ -1,6 +1,7 @@
 //! `run.json`: how a run came to be.
 
 use crate::config::{Config, Lighting};
+use crate::measure::{Capacities, GrowthEvent};
 use serde::Serialize;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
@@ -37,8 +38,6 @@ pub struct Manifest {
     pub capacities: Capacities,
     /// Each time that buffers grew.
     pub growth: Vec<GrowthEvent>,
-    /// Whether every frame of every run was rendered; false after an interruption.
-    pub complete: bool,
     /// When the run started, RFC 3339, UTC.
     pub started: String,
     /// How long it took, seconds.
@@ -63,30 +62,6 @@ pub struct DeviceInfo {
     pub driver: String,
     /// Version of the Vulkan API it offers.
     pub api: String,
-}
-
-/// What a clustering's buffers hold.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-pub struct Capacities {
-    /// Visible clusters.
-    pub visible_clusters: u32,
-    /// Light indices.
-    pub light_indices: u32,
-}
-
-/// Buffers grew because a frame needed more, and the frame was rendered again.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct GrowthEvent {
-    /// The frame.
-    pub frame: u32,
-    /// The clustering.
-    pub clustering: u32,
-    /// Which buffer: `visible_clusters` or `light_indices`.
-    pub buffer: String,
-    /// What it held.
-    pub from: u32,
-    /// What it holds since.
-    pub to: u32,
 }
 
 /// A moment as RFC 3339 in UTC to the second: `2026-11-05T09:03:07Z`. Moments before 1970 count as its start.

@@ -30,9 +30,7 @@ mod tests;
 pub use atomic::write_whole;
 pub use color::{cluster_color, cubehelix, tone_map};
 pub use image_exr::write_exr;
-pub use manifest::{
-    Capacities, DeviceInfo, GrowthEvent, Manifest, RUN_FORMAT, Source, git_revision, rfc3339_utc,
-};
+pub use manifest::{DeviceInfo, Manifest, RUN_FORMAT, Source, git_revision, rfc3339_utc};
 pub use preview::{cluster_preview, image_preview, light_preview, write_previews};
 pub use run::{PlannedRun, RunWriter, planned_runs, prepare_output, write_summary};
 pub use stages::{GpuTimes, StageMinima};

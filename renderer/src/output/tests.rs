@@ -1,6 +1,7 @@
 use super::testing::{counts, times, view};
 use super::*;
 use crate::config::{Config, Lighting};
+use crate::measure::{Capacities, GrowthEvent};
 use crate::measure::{FrameCounts, FrameTimes};
 use std::collections::BTreeMap;
 use std::fs;
@@ -192,7 +193,6 @@ fn manifest() -> Manifest {
             from: 1,
             to: 2,
         }],
-        complete: true,
         started: "2026-11-05T09:03:07Z".into(),
         duration_s: 1.5,
     }

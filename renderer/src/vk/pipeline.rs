@@ -55,8 +55,8 @@ pub struct GraphicsDesc<'a> {
     pub attributes: &'a [vk::VertexInputAttributeDescription],
     /// Faces left out. Counter-clockwise is front.
     pub cull_mode: vk::CullModeFlags,
-    /// Makes the front face a dynamic state, which the caller then sets before each draw (for mirrored instances).
-    pub dynamic_front_face: bool,
+    /// Makes cull mode and front face dynamic states, which the caller then sets before each draw.
+    pub dynamic_facing: bool,
     /// Whether depth is written.
     pub depth_write: bool,
     /// Depth test; `None` passes all, and leaves depth unwritten.
@@ -83,7 +83,7 @@ impl Default for GraphicsDesc<'_> {
             bindings: &[],
             attributes: &[],
             cull_mode: vk::CullModeFlags::BACK,
-            dynamic_front_face: false,
+            dynamic_facing: false,
             depth_write: false,
             depth_compare: None,
             depth_format: None,
@@ -135,9 +135,13 @@ pub fn graphics_pipeline(
     let attachments = [blend_state(desc.blend)];
     let used = if desc.color_format.is_some() { 1 } else { 0 };
     let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments[..used]);
-    let dynamic_states =
-        [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR, vk::DynamicState::FRONT_FACE];
-    let dynamic_count = if desc.dynamic_front_face { 3 } else { 2 };
+    let dynamic_states = [
+        vk::DynamicState::VIEWPORT,
+        vk::DynamicState::SCISSOR,
+        vk::DynamicState::FRONT_FACE,
+        vk::DynamicState::CULL_MODE,
+    ];
+    let dynamic_count = if desc.dynamic_facing { 4 } else { 2 };
     let dynamic =
         vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic_states[..dynamic_count]);
     let mut rendering = vk::PipelineRenderingCreateInfo::default()

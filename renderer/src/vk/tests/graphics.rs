@@ -73,7 +73,8 @@ fn draw(context: &Arc<Context>, desc: GraphicsDesc<'_>, corners: [[f32; 2]; 3]) 
             let flipped = vk::Viewport { y, width: side, height, max_depth, ..Default::default() };
             device.cmd_set_viewport(cmd, 0, &[flipped]);
             device.cmd_set_scissor(cmd, 0, &[area]);
-            if desc.dynamic_front_face {
+            if desc.dynamic_facing {
+                device.cmd_set_cull_mode(cmd, vk::CullModeFlags::BACK);
                 device.cmd_set_front_face(cmd, vk::FrontFace::CLOCKWISE);
             }
             device.cmd_bind_vertex_buffers(cmd, 0, &[vertices.handle], &[0]);
@@ -120,7 +121,7 @@ fn counter_clockwise_is_front_and_up_is_up() {
         assert_eq!(at(SIDE - 1, 0), [0; 4], "upper right");
         let background = vec![[0; 4]; pixels.len()];
         assert_eq!(draw(context, GraphicsDesc::default(), reversed(LOWER_LEFT)), background);
-        let mirrored = GraphicsDesc { dynamic_front_face: true, ..Default::default() };
+        let mirrored = GraphicsDesc { dynamic_facing: true, ..Default::default() };
         assert_eq!(draw(context, mirrored, reversed(LOWER_LEFT)), pixels);
         let both = GraphicsDesc { cull_mode: vk::CullModeFlags::NONE, ..Default::default() };
         assert_eq!(draw(context, both, reversed(LOWER_LEFT)), pixels);

@@ -1,0 +1,352 @@
+//! The device's side of one clustering: its buffers, their sizes, their descriptor sets.
+//!
+//! ```text
+//! cluster_bits ─> word_ranks, visible_clusters ─> segment_counts ─> list_offsets ─> light_indices
+//! ```
+
+use crate::frame::SLOTS;
+use crate::geometry::{ClusterSpace, Grid};
+use crate::gpu_interface::{
+    BUFFERS, COUNTER_COUNT, ClusteringState, DispatchSize, GridData, PixelData, SCAN_BLOCK, ViewData,
+};
+use crate::layouts::{DescriptorSets, Layouts, write_buffer_set};
+use crate::measure::Capacities;
+use crate::views::Pose;
+use crate::vk::{Buffer, Context, Limits, Memory};
+use crate::{Error, Result};
+use ash::vk;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Rounding of positions and planes in f32 stays below this fraction of the far distance (measured: see the
+/// tests of the CPU twin), so radii grown by it never lose a light.
+const SLACK_PER_METRE: f32 = 8e-7;
+
+/// Everything that decides a clustering's buffer sizes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ClusteringSizes {
+    /// Clusters of the grid (largest of all frames); 0 for a method without clusters.
+    pub clusters: u64,
+    /// Lights (most of all frames).
+    pub lights: u32,
+    /// Entries.
+    pub capacities: Capacities,
+    /// Whether the atemporal run's buffers are there.
+    pub counting: bool,
+    /// Pixels of a view.
+    pub pixels: u64,
+}
+
+/// Lights are split into at most this many segments, so that few visible clusters still fill a GPU.
+const MAX_SEGMENTS: u32 = 16;
+/// A segment holds at least this many lights.
+const MIN_SEGMENT: u32 = 256;
+
+/// (Segments, lights per segment) that assignment splits `lights` into.
+pub fn segments(lights: u32) -> (u32, u32) {
+    let count = lights.div_ceil(MIN_SEGMENT).clamp(1, MAX_SEGMENTS);
+    (count, lights.div_ceil(count))
+}
+
+impl ClusteringSizes {
+    /// Words of the visibility bits.
+    pub fn words(&self) -> u64 {
+        self.clusters.div_ceil(32)
+    }
+
+    fn list_segments(&self) -> u64 {
+        u64::from(self.capacities.visible_clusters) * u64::from(segments(self.lights).0)
+    }
+
+    /// Bytes of each buffer, in binding order of those that [`ClusteringBuffers`] makes.
+    fn bytes(&self) -> [(&'static str, u64); 14] {
+        let counting = u64::from(self.counting);
+        let visible = u64::from(self.capacities.visible_clusters);
+        let blocks = self.words().max(self.list_segments()).div_ceil(u64::from(SCAN_BLOCK));
+        [
+            ("light_spheres", 16 * u64::from(self.lights)),
+            ("cluster_bits", 4 * self.words()),
+            ("word_ranks", 4 * self.words()),
+            ("visible_clusters", 4 * visible),
+            ("block_sums", 4 * blocks),
+            ("segment_counts", 4 * self.list_segments()),
+            ("list_offsets", 4 * (self.list_segments() + 1)),
+            ("light_indices", 4 * u64::from(self.capacities.light_indices)),
+            ("state", size_of::<ClusteringState>() as u64),
+            ("dispatches", 2 * size_of::<DispatchSize>() as u64),
+            ("counters", 8 * COUNTER_COUNT as u64),
+            ("fragment_counts", 4 * self.clusters * counting),
+            ("visible_fragments", 4 * visible * counting),
+            ("lights_per_fragment", 4 * (u64::from(self.lights) + 1) * counting),
+        ]
+    }
+
+    /// Refuses what the device cannot hold or dispatch, naming the largest fault.
+    pub fn check(&self, limits: &Limits) -> Result<()> {
+        for (name, size) in self.bytes() {
+            if size > limits.max_storage_buffer_range {
+                return Err(Error::Device(format!(
+                    "buffer {name} would need {size} bytes ({} clusters, {} lights, {} visible clusters, {} light \
+                     indices) but the device binds at most {}: use fewer lights or larger clusters",
+                    self.clusters,
+                    self.lights,
+                    self.capacities.visible_clusters,
+                    self.capacities.light_indices,
+                    limits.max_storage_buffer_range
+                )));
+            }
+        }
+        let groups = self.list_segments().max(self.words()).div_ceil(u64::from(SCAN_BLOCK));
+        let most = u64::from(limits.max_compute_work_group_count[0]);
+        if groups > most {
+            return Err(Error::Device(format!(
+                "{} visible clusters would need a dispatch of {groups} workgroups but the device allows {most}: \
+                 use larger clusters",
+                self.capacities.visible_clusters
+            )));
+        }
+        Ok(())
+    }
+}
+
+/// Buffers that shaders fill.
+pub struct ClusteringBuffers {
+    /// Lights in clustering space: centre, radius.
+    pub light_spheres: Buffer,
+    /// A bit per cluster.
+    pub cluster_bits: Buffer,
+    /// Visible clusters before each word of bits.
+    pub word_ranks: Buffer,
+    /// Linear indices, ascending.
+    pub visible_clusters: Buffer,
+    /// Of the prefix sums.
+    pub block_sums: Buffer,
+    /// Lights in each segment of each list.
+    pub segment_counts: Buffer,
+    /// Where each segment begins, and the total.
+    pub list_offsets: Buffer,
+    /// The lists.
+    pub light_indices: Buffer,
+    /// [`ClusteringState`].
+    pub state: Buffer,
+    /// Sizes of indirect dispatches.
+    pub dispatches: Buffer,
+    /// 64-bit counters.
+    pub counters: Buffer,
+    /// Per cluster; counting alone.
+    pub fragment_counts: Buffer,
+    /// Per visible cluster; counting alone.
+    pub visible_fragments: Buffer,
+    /// Histogram; counting alone.
+    pub lights_per_fragment: Buffer,
+    /// [`PixelData`] of one view.
+    pub pixels: Buffer,
+}
+
+impl ClusteringBuffers {
+    fn new(context: &Arc<Context>, sizes: &ClusteringSizes) -> Result<Self> {
+        sizes.check(&context.limits)?;
+        let bytes = sizes.bytes();
+        let make = |name: &str| {
+            let size = bytes.iter().find(|(known, _)| *known == name).map_or(0, |b| b.1);
+            device_buffer(context, name, size)
+        };
+        let pixels = if sizes.counting { sizes.pixels * size_of::<PixelData>() as u64 } else { 0 };
+        Ok(Self {
+            light_spheres: make("light_spheres")?,
+            cluster_bits: make("cluster_bits")?,
+            word_ranks: make("word_ranks")?,
+            visible_clusters: make("visible_clusters")?,
+            block_sums: make("block_sums")?,
+            segment_counts: make("segment_counts")?,
+            list_offsets: make("list_offsets")?,
+            light_indices: make("light_indices")?,
+            state: make("state")?,
+            dispatches: make("dispatches")?,
+            counters: make("counters")?,
+            fragment_counts: make("fragment_counts")?,
+            visible_fragments: make("visible_fragments")?,
+            lights_per_fragment: make("lights_per_fragment")?,
+            pixels: device_buffer(context, "pixels", pixels)?,
+        })
+    }
+}
+
+/// Smallest buffer made, so that every binding has one.
+const MIN_BUFFER: u64 = 256;
+
+/// A device-local storage buffer that can be copied, filled and dispatched from.
+pub fn device_buffer(context: &Arc<Context>, name: &str, size: u64) -> Result<Buffer> {
+    use vk::BufferUsageFlags as U;
+    let usage = U::STORAGE_BUFFER | U::TRANSFER_SRC | U::TRANSFER_DST | U::INDIRECT_BUFFER;
+    Buffer::new(context, name, size.max(MIN_BUFFER).next_multiple_of(4), usage, Memory::Device)
+}
+
+/// Buffers that all clusterings share.
+pub struct SharedBuffers<'a> {
+    /// [`ViewData`] of all views, a buffer per frame in flight.
+    pub views: [&'a Buffer; SLOTS],
+    /// The frame's lights.
+    pub lights: &'a Buffer,
+    /// The scene's materials.
+    pub materials: &'a Buffer,
+    /// The scene's instances.
+    pub instances: &'a Buffer,
+}
+
+/// One clustering on the device.
+pub struct Clustering {
+    /// What shaders fill.
+    pub buffers: ClusteringBuffers,
+    /// [`GridData`], mapped, one per frame in flight.
+    pub grids: [Buffer; SLOTS],
+    /// The storage buffers, one set per frame in flight.
+    pub sets: [vk::DescriptorSet; SLOTS],
+    /// The views that look lights up here.
+    pub views: Range<usize>,
+    /// Words of visibility bits of this frame's grid.
+    pub word_count: u32,
+    /// Whether the atemporal run's buffers are there.
+    pub counting: bool,
+    _sets: DescriptorSets,
+}
+
+impl Clustering {
+    /// Makes the buffers and the sets that bind them.
+    pub fn new(
+        context: &Arc<Context>,
+        layouts: &Layouts,
+        shared: &SharedBuffers,
+        sizes: &ClusteringSizes,
+        views: Range<usize>,
+    ) -> Result<Self> {
+        let buffers = ClusteringBuffers::new(context, sizes)?;
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let grid = || Buffer::new(context, "grid", size_of::<GridData>() as u64, usage, Memory::Upload);
+        let grids = [grid()?, grid()?];
+        let kind = (vk::DescriptorType::STORAGE_BUFFER, BUFFERS.len() as u32);
+        let sets = DescriptorSets::new(context, layouts.buffers, kind, SLOTS)?;
+        for slot in 0..SLOTS {
+            let handles = handles(&buffers, shared, slot, &grids[slot]);
+            write_buffer_set(context, sets.sets[slot], &handles);
+        }
+        Ok(Self {
+            buffers,
+            grids,
+            sets: [sets.sets[0], sets.sets[1]],
+            views,
+            word_count: 0,
+            counting: sizes.counting,
+            _sets: sets,
+        })
+    }
+}
+
+/// In the order of [`BUFFERS`].
+fn handles(
+    b: &ClusteringBuffers,
+    shared: &SharedBuffers,
+    slot: usize,
+    grid: &Buffer,
+) -> [vk::Buffer; BUFFERS.len()] {
+    [
+        shared.views[slot],
+        grid,
+        shared.lights,
+        &b.light_spheres,
+        &b.cluster_bits,
+        &b.word_ranks,
+        &b.visible_clusters,
+        &b.block_sums,
+        &b.segment_counts,
+        &b.list_offsets,
+        &b.light_indices,
+        &b.state,
+        &b.dispatches,
+        &b.counters,
+        &b.fragment_counts,
+        &b.visible_fragments,
+        &b.lights_per_fragment,
+        &b.pixels,
+        shared.materials,
+        shared.instances,
+    ]
+    .map(|buffer| buffer.handle)
+}
+
+/// A grid as shaders read it.
+pub fn grid_data(grid: &Grid, lights: u32, capacities: Capacities) -> GridData {
+    let dimensions = glam::DVec3::from_array(grid.dimensions.map(f64::from));
+    let (origin, cell, reach) = match grid.space {
+        ClusterSpace::Perspective { frustum: f, ratio } => (
+            glam::DVec3::new(f.x0, f.y0, -f.z1),
+            glam::DVec3::new(
+                (f.x1 - f.x0) / dimensions.x,
+                (f.y1 - f.y0) / dimensions.y,
+                ratio.ln_1p() / std::f64::consts::LN_2,
+            ),
+            -f.z0,
+        ),
+        ClusterSpace::Orthographic { min, max } => {
+            (min, (max - min) / dimensions, min.abs().max(max.abs()).max_element())
+        }
+    };
+    let (segment_count, segment_size) = segments(lights);
+    GridData {
+        clustering_from_world: rigid_inverse(&grid.pose),
+        dimensions: grid.dimensions,
+        word_count: grid.cluster_count().div_ceil(32) as u32,
+        origin: origin.as_vec3().to_array(),
+        scale: (1.0 / cell).as_vec3().to_array(),
+        cell: cell.as_vec3().to_array(),
+        slack: SLACK_PER_METRE * reach as f32,
+        light_count: lights,
+        segment_count,
+        segment_size,
+        visible_capacity: capacities.visible_clusters,
+        index_capacity: capacities.light_indices,
+    }
+}
+
+/// What the lookup over all lights reads: no grid, every light.
+pub fn gridless_data(lights: u32) -> GridData {
+    GridData { light_count: lights, ..bytemuck::Zeroable::zeroed() }
+}
+
+fn rigid_inverse(pose: &Pose) -> [[f32; 4]; 4] {
+    pose.inverse().to_matrix().as_mat4().to_cols_array_2d()
+}
+
+/// A view as shaders read it; `grid` is what it looks lights up in.
+pub fn view_data(view: &crate::views::View, grid: Option<&Grid>, resolution: [u32; 2]) -> ViewData {
+    let f = &view.frustum;
+    let view_from_world = view.pose.inverse().to_matrix();
+    let world_from_view = view.pose.to_matrix();
+    let clustering_from_view =
+        grid.map_or(glam::DMat4::IDENTITY, |grid| grid.pose.inverse().to_matrix() * world_from_view);
+    ViewData {
+        clip_from_world: (f.clip_from_view() * view_from_world).as_mat4().to_cols_array_2d(),
+        world_from_view: world_from_view.as_mat4().to_cols_array_2d(),
+        clustering_from_view: clustering_from_view.as_mat4().to_cols_array_2d(),
+        tangent_min: [f.x0 as f32, f.y0 as f32],
+        tangent_extent: [(f.x1 - f.x0) as f32, (f.y1 - f.y0) as f32],
+        resolution,
+        near: -f.z1 as f32,
+        far: -f.z0 as f32,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn segments_cover_all_lights() {
+        for lights in [0, 1, 255, 256, 257, 1000, 4096, 4097, 100_000, 1_000_000] {
+            let (count, size) = segments(lights);
+            assert!((1..=MAX_SEGMENTS).contains(&count));
+            assert!(count * size >= lights, "{count} segments of {size} lose some of {lights} lights");
+            assert!(lights == 0 || (count - 1) * size < lights, "an empty segment at {lights} lights");
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! What a view draws: instances grouped into batches, culled against the view's frustum, transparent ones
+//! sorted from far to near. Pure: no Vulkan.
+
+use crate::scene::{AlphaMode, Bounds, Instance, Scene};
+use crate::views::View;
+use glam::{DVec3, DVec4};
+
+/// How the surfaces of a draw are treated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SurfaceKind {
+    /// Alpha ignored.
+    Opaque,
+    /// Alpha tested.
+    Masked,
+    /// Blended.
+    Transparent,
+}
+
+impl SurfaceKind {
+    /// In drawing order.
+    pub const ALL: [Self; 3] = [Self::Opaque, Self::Masked, Self::Transparent];
+}
+
+impl From<AlphaMode> for SurfaceKind {
+    fn from(mode: AlphaMode) -> Self {
+        match mode {
+            AlphaMode::Opaque => Self::Opaque,
+            AlphaMode::Mask => Self::Masked,
+            AlphaMode::Blend => Self::Transparent,
+        }
+    }
+}
+
+/// Instances of one primitive that can share a draw call.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Batch {
+    /// Surface treatment.
+    pub kind: SurfaceKind,
+    /// Material.
+    pub material: u32,
+    /// First index.
+    pub first_index: u32,
+    /// Number of indices.
+    pub index_count: u32,
+    /// Added to every index.
+    pub vertex_offset: i32,
+    /// Whether the instances mirror the primitive, which turns its faces around.
+    pub mirrored: bool,
+    /// Whether both faces are drawn.
+    pub double_sided: bool,
+}
+
+/// Consecutive instances of a batch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DrawRun {
+    /// Into [`Batches::batches`].
+    pub batch: u32,
+    /// Into [`Batches::instances`].
+    pub first_instance: u32,
+    /// How many.
+    pub instance_count: u32,
+}
+
+/// World-space box around an instance, metres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct WorldBox {
+    center: DVec3,
+    half_extent: DVec3,
+}
+
+impl WorldBox {
+    fn new(instance: &Instance, bounds: &Bounds) -> Self {
+        let matrix = instance.world_from_object.as_dmat4();
+        let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+        let half = (max - min) * 0.5;
+        let half_extent = matrix.x_axis.truncate().abs() * half.x
+            + matrix.y_axis.truncate().abs() * half.y
+            + matrix.z_axis.truncate().abs() * half.z;
+        Self { center: matrix.transform_point3((min + max) * 0.5), half_extent }
+    }
+}
+
+/// A scene's instances in drawing order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Batches {
+    /// By kind, then material.
+    pub batches: Vec<Batch>,
+    /// Instances of [`Scene::instances`] in drawing order.
+    pub instances: Vec<u32>,
+    /// Each instance's batch, in drawing order.
+    batch_of: Vec<u32>,
+    boxes: Vec<WorldBox>,
+}
+
+impl Batches {
+    /// Groups a scene's instances by what they share.
+    pub fn new(scene: &Scene) -> Self {
+        let batch = |instance: &Instance| {
+            let primitive = &scene.primitives[instance.primitive as usize];
+            let material = &scene.materials[primitive.material as usize];
+            Batch {
+                kind: material.alpha_mode.into(),
+                material: primitive.material,
+                first_index: primitive.first_index,
+                index_count: primitive.index_count,
+                vertex_offset: primitive.vertex_offset as i32,
+                mirrored: instance.world_from_object.determinant() < 0.0,
+                double_sided: material.double_sided,
+            }
+        };
+        let mut keyed: Vec<(Batch, u32)> =
+            scene.instances.iter().enumerate().map(|(i, instance)| (batch(instance), i as u32)).collect();
+        keyed.sort();
+        let mut result = Self { batches: vec![], instances: vec![], batch_of: vec![], boxes: vec![] };
+        for (batch, index) in keyed {
+            if result.batches.last() != Some(&batch) {
+                result.batches.push(batch);
+            }
+            let instance = &scene.instances[index as usize];
+            let bounds = &scene.primitives[instance.primitive as usize].bounds;
+            result.instances.push(index);
+            result.batch_of.push(result.batches.len() as u32 - 1);
+            result.boxes.push(WorldBox::new(instance, bounds));
+        }
+        result
+    }
+
+    fn run(&self, instance: usize) -> DrawRun {
+        DrawRun { batch: self.batch_of[instance], first_instance: instance as u32, instance_count: 1 }
+    }
+}
+
+/// The runs of one view, by kind. Keeps its memory from frame to frame.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct DrawList {
+    /// By material.
+    pub opaque: Vec<DrawRun>,
+    /// By material.
+    pub masked: Vec<DrawRun>,
+    /// From far to near.
+    pub transparent: Vec<DrawRun>,
+    far_to_near: Vec<(f64, u32)>,
+}
+
+impl DrawList {
+    /// The runs of one kind.
+    pub fn runs(&self, kind: SurfaceKind) -> &[DrawRun] {
+        match kind {
+            SurfaceKind::Opaque => &self.opaque,
+            SurfaceKind::Masked => &self.masked,
+            SurfaceKind::Transparent => &self.transparent,
+        }
+    }
+
+    /// Refills the list with what `view` may see.
+    pub fn update(&mut self, batches: &Batches, view: &View) {
+        self.opaque.clear();
+        self.masked.clear();
+        self.transparent.clear();
+        self.far_to_near.clear();
+        let planes = world_planes(view);
+        for (instance, bounds) in batches.boxes.iter().enumerate() {
+            if !may_see(&planes, bounds) {
+                continue;
+            }
+            let run = batches.run(instance);
+            match batches.batches[run.batch as usize].kind {
+                SurfaceKind::Opaque => append(&mut self.opaque, run),
+                SurfaceKind::Masked => append(&mut self.masked, run),
+                SurfaceKind::Transparent => {
+                    let distance = bounds.center.distance_squared(view.pose.position);
+                    self.far_to_near.push((distance, instance as u32));
+                }
+            }
+        }
+        self.far_to_near.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        self.transparent.extend(self.far_to_near.iter().map(|&(_, i)| batches.run(i as usize)));
+    }
+}
+
+/// Appends a run, joined with the last one where the two are neighbours in one batch.
+fn append(runs: &mut Vec<DrawRun>, run: DrawRun) {
+    if let Some(last) = runs.last_mut()
+        && last.batch == run.batch
+        && last.first_instance + last.instance_count == run.first_instance
+    {
+        last.instance_count += run.instance_count;
+        return;
+    }
+    runs.push(run);
+}
+
+/// The six planes of a view in world space: (inward normal, offset); a point p is inside where n.p + o >= 0.
+fn world_planes(view: &View) -> [DVec4; 6] {
+    let f = &view.frustum;
+    let local = [
+        (DVec3::new(1.0, 0.0, f.x0), 0.0),
+        (DVec3::new(-1.0, 0.0, -f.x1), 0.0),
+        (DVec3::new(0.0, 1.0, f.y0), 0.0),
+        (DVec3::new(0.0, -1.0, -f.y1), 0.0),
+        (DVec3::new(0.0, 0.0, -1.0), f.z1),
+        (DVec3::new(0.0, 0.0, 1.0), -f.z0),
+    ];
+    local.map(|(normal, offset)| {
+        let world = view.pose.rotation * normal;
+        world.extend(offset - world.dot(view.pose.position))
+    })
+}
+
+/// False only where the box lies wholly outside a plane.
+fn may_see(planes: &[DVec4; 6], bounds: &WorldBox) -> bool {
+    planes.iter().all(|plane| {
+        let normal = plane.truncate();
+        normal.dot(bounds.center) + plane.w >= -normal.abs().dot(bounds.half_extent)
+    })
+}

@@ -1,0 +1,342 @@
+//! What host and shaders share: structs, buffers, constants, each declared once here and generated into
+//! `generated/gpu_interface.glsl`, which every shader includes.
+//!
+//! ```text
+//! views ─┬─> cluster_bits ──scan──> word_ranks, visible_clusters ─┐
+//! grid ──┘      (mark)                                            ├─> segment_counts ──scan──> list_offsets ─┐
+//! lights ─────> light_spheres ────────────────────────────────────┘   (count_lights)                         │
+//!               (transform_lights)             └──────────────────────────> light_indices (assign_lights) <──┘
+//! ```
+
+use crate::gpu_struct;
+use crate::lights::Attenuation;
+use std::fmt::Write as _;
+
+gpu_struct! {
+    /// One rendering camera in one frame.
+    pub struct ViewData {
+        /// Reversed depth: 1 near, 0 far.
+        pub clip_from_world: [[f32; 4]; 4],
+        /// Rigid.
+        pub world_from_view: [[f32; 4]; 4],
+        /// Rigid; into the space of the clustering that this view looks up.
+        pub clustering_from_view: [[f32; 4]; 4],
+        /// Left and bottom tangent.
+        pub tangent_min: [f32; 2],
+        /// Right minus left, top minus bottom tangent.
+        pub tangent_extent: [f32; 2],
+        /// Width and height, pixels.
+        pub resolution: [u32; 2],
+        /// Metres, positive.
+        pub near: f32,
+        /// Metres, positive.
+        pub far: f32,
+    }
+}
+
+gpu_struct! {
+    /// One clustering in one frame: its grid, its lights, its capacities.
+    pub struct GridData {
+        /// Rigid.
+        pub clustering_from_world: [[f32; 4]; 4],
+        /// Dx, Dy, Dz.
+        pub dimensions: [u32; 3],
+        /// Words of the visibility bits: ceil(Dx*Dy*Dz / 32).
+        pub word_count: u32,
+        /// Perspective: left tangent, bottom tangent, near distance. Orthographic: lowest corner, metres.
+        pub origin: [f32; 3],
+        /// Cells per tangent and per log2 of depth; or cells per metre.
+        pub scale: [f32; 3],
+        /// Inverse of `scale`.
+        pub cell: [f32; 3],
+        /// Added to every light's radius, metres: covers rounding at cell boundaries.
+        pub slack: f32,
+        /// Lights in this frame.
+        pub light_count: u32,
+        /// Segments that the lights are split into for assignment.
+        pub segment_count: u32,
+        /// Lights per segment.
+        pub segment_size: u32,
+        /// Visible clusters that fit.
+        pub visible_capacity: u32,
+        /// Light indices that fit.
+        pub index_capacity: u32,
+    }
+}
+
+gpu_struct! {
+    /// A point light in world space.
+    pub struct LightData {
+        /// Metres.
+        pub position: [f32; 3],
+        /// Influence radius, metres.
+        pub r1: f32,
+        /// Linear colour.
+        pub tint: [f32; 3],
+        /// Intensity I.
+        pub intensity: f32,
+        /// Cut-off I0.
+        pub cutoff: f32,
+        /// Near radius, metres.
+        pub r0: f32,
+    }
+}
+
+gpu_struct! {
+    /// A metallic-roughness material.
+    pub struct MaterialData {
+        /// Linear colour and alpha.
+        pub base_color: [f32; 4],
+        /// Linear radiance.
+        pub emissive: [f32; 3],
+        /// 0 to 1.
+        pub metallic: f32,
+        /// Perceptual, 0 to 1.
+        pub roughness: f32,
+        /// Scale of the normal map's x and y.
+        pub normal_scale: f32,
+        /// 0 to 1.
+        pub occlusion_strength: f32,
+        /// Below this a masked fragment is discarded.
+        pub alpha_cutoff: f32,
+        /// Bit s: texture s reads the second uv set.
+        pub uv_slots: u32,
+        /// Two rows of an affine map per texture.
+        pub uv_rows: [[f32; 3]; 10],
+    }
+}
+
+gpu_struct! {
+    /// A primitive's place in the world.
+    pub struct InstanceData {
+        /// Affine.
+        pub world_from_object: [[f32; 4]; 4],
+        /// Into the materials.
+        pub material: u32,
+    }
+}
+
+gpu_struct! {
+    /// What the device found out about one clustering in one frame.
+    pub struct ClusteringState {
+        /// Visible clusters there are.
+        pub visible_total: u32,
+        /// Visible clusters that fitted.
+        pub visible: u32,
+        /// Light indices there are.
+        pub index_total: u32,
+    }
+}
+
+gpu_struct! {
+    /// Arguments of an indirect dispatch.
+    pub struct DispatchSize {
+        /// Workgroups.
+        pub x: u32,
+        /// Workgroups.
+        pub y: u32,
+        /// Workgroups.
+        pub z: u32,
+    }
+}
+
+gpu_struct! {
+    /// What is known of a pixel.
+    pub struct PixelData {
+        /// Along the view's -Z, metres; infinity where nothing was hit.
+        pub distance: f32,
+        /// Length of the list of its cluster.
+        pub light_count: u32,
+        /// Fragments in its cluster.
+        pub fragment_count: u32,
+        /// Linear cluster index; all ones where nothing was hit.
+        pub cluster_index: u32,
+    }
+}
+
+/// A storage buffer of descriptor set 0; the discriminant is its binding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u32)]
+#[allow(missing_docs)] // each is described by its row of BUFFERS
+pub enum Binding {
+    Views,
+    Grid,
+    Lights,
+    LightSpheres,
+    ClusterBits,
+    WordRanks,
+    VisibleClusters,
+    BlockSums,
+    SegmentCounts,
+    ListOffsets,
+    LightIndices,
+    State,
+    Dispatches,
+    Counters,
+    FragmentCounts,
+    VisibleFragments,
+    LightsPerFragment,
+    Pixels,
+    Materials,
+    Instances,
+}
+
+/// Every buffer as (binding, access, GLSL member).
+pub const BUFFERS: [(Binding, &str, &str); 20] = [
+    (Binding::Views, "readonly", "ViewData views[]"),
+    (Binding::Grid, "readonly", "GridData grid"),
+    (Binding::Lights, "readonly", "LightData lights[]"),
+    (Binding::LightSpheres, "", "vec4 light_spheres[]"),
+    (Binding::ClusterBits, "", "uint cluster_bits[]"),
+    (Binding::WordRanks, "", "uint word_ranks[]"),
+    (Binding::VisibleClusters, "", "uint visible_clusters[]"),
+    (Binding::BlockSums, "", "uint block_sums[]"),
+    (Binding::SegmentCounts, "", "uint segment_counts[]"),
+    (Binding::ListOffsets, "", "uint list_offsets[]"),
+    (Binding::LightIndices, "", "uint light_indices[]"),
+    (Binding::State, "", "ClusteringState state"),
+    (Binding::Dispatches, "", "DispatchSize dispatches[]"),
+    (Binding::Counters, "", "uint counters[]"),
+    (Binding::FragmentCounts, "", "uint fragment_counts[]"),
+    (Binding::VisibleFragments, "", "uint visible_fragments[]"),
+    (Binding::LightsPerFragment, "", "uint lights_per_fragment[]"),
+    (Binding::Pixels, "", "PixelData pixels[]"),
+    (Binding::Materials, "readonly", "MaterialData materials[]"),
+    (Binding::Instances, "readonly", "InstanceData instances[]"),
+];
+
+/// Descriptor set of the storage buffers.
+pub const SET_BUFFERS: u32 = 0;
+/// Descriptor set of a material's five textures.
+pub const SET_MATERIAL: u32 = 1;
+/// Descriptor set of a view's depth image.
+pub const SET_DEPTH: u32 = 2;
+/// Threads of a workgroup of the prefix sum.
+pub const SCAN_GROUP: u32 = 256;
+/// Items that such a workgroup takes.
+pub const SCAN_BLOCK: u32 = 1024;
+/// Threads of a workgroup of the assignment passes.
+pub const ASSIGN_GROUP: u32 = 64;
+/// Slot of the assignment's dispatch size.
+pub const DISPATCH_ASSIGN: u32 = 0;
+/// Slot of the dispatch size of the prefix sum over list lengths.
+pub const DISPATCH_SCAN: u32 = 1;
+
+/// A 64-bit counter of the atemporal run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u32)]
+pub enum Counter {
+    /// Fragments shaded.
+    FragmentsShaded,
+    /// Fragments whose cluster was not marked.
+    FragmentsWithoutCluster,
+    /// Evaluations of a light for a fragment.
+    LightingComputations,
+    /// Those closer than R1.
+    NeededComputations,
+    /// Sphere against cluster tests.
+    IntersectionTests,
+}
+
+/// How many counters there are.
+pub const COUNTER_COUNT: usize = 5;
+
+const COUNTERS: [(&str, Counter); COUNTER_COUNT] = [
+    ("COUNTER_FRAGMENTS_SHADED", Counter::FragmentsShaded),
+    ("COUNTER_FRAGMENTS_WITHOUT_CLUSTER", Counter::FragmentsWithoutCluster),
+    ("COUNTER_LIGHTING_COMPUTATIONS", Counter::LightingComputations),
+    ("COUNTER_NEEDED_COMPUTATIONS", Counter::NeededComputations),
+    ("COUNTER_INTERSECTION_TESTS", Counter::IntersectionTests),
+];
+
+const CONSTANTS: [(&str, u32); 8] = [
+    ("SET_BUFFERS", SET_BUFFERS),
+    ("SET_MATERIAL", SET_MATERIAL),
+    ("SET_DEPTH", SET_DEPTH),
+    ("SCAN_GROUP", SCAN_GROUP),
+    ("SCAN_BLOCK", SCAN_BLOCK),
+    ("ASSIGN_GROUP", ASSIGN_GROUP),
+    ("DISPATCH_ASSIGN", DISPATCH_ASSIGN),
+    ("DISPATCH_SCAN", DISPATCH_SCAN),
+];
+
+/// Names of what shader variants choose among; the value is the position.
+const VARIANT_NAMES: [&[&str]; 4] = [
+    &["SPACE_PERSPECTIVE", "SPACE_ORTHOGRAPHIC"],
+    &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS"],
+    &["SURFACE_OPAQUE", "SURFACE_MASKED", "SURFACE_TRANSPARENT"],
+    &["LOOKUP_ALL_LIGHTS", "LOOKUP_CLUSTERED"],
+];
+
+/// The include that declares all of this to shaders.
+pub fn glsl() -> String {
+    let mut text = String::from(
+        "#pragma once\n#extension GL_EXT_scalar_block_layout : require\n#extension GL_EXT_samplerless_texture_functions : require\n",
+    );
+    for (name, value) in CONSTANTS {
+        let _ = writeln!(text, "#define {name} {value}");
+    }
+    for names in VARIANT_NAMES {
+        for (value, name) in names.iter().enumerate() {
+            let _ = writeln!(text, "#define {name} {value}");
+        }
+    }
+    for (name, counter) in COUNTERS {
+        let _ = writeln!(text, "const uint {name} = {};", counter as u32);
+    }
+    for attenuation in Attenuation::ALL {
+        let name = attenuation.to_string().to_uppercase();
+        let _ = writeln!(text, "const uint ATTENUATION_{name} = {};", attenuation as u32);
+    }
+    for structure in [
+        ViewData::GLSL,
+        GridData::GLSL,
+        LightData::GLSL,
+        MaterialData::GLSL,
+        InstanceData::GLSL,
+        ClusteringState::GLSL,
+        DispatchSize::GLSL,
+        PixelData::GLSL,
+    ] {
+        text.push_str(structure);
+        text.push('\n');
+    }
+    for (binding, access, member) in BUFFERS {
+        let number = binding as u32;
+        let _ = writeln!(
+            text,
+            "layout(set = SET_BUFFERS, binding = {number}, scalar) {access} buffer Buffer{number} {{ {member}; }};"
+        );
+    }
+    text.push_str("layout(push_constant) uniform PushConstants { uint view; } push;\n");
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn structs_have_the_offsets_that_shaders_see() {
+        crate::gpu_types::tests::assert_layouts(&[
+            ViewData::INFO,
+            GridData::INFO,
+            LightData::INFO,
+            MaterialData::INFO,
+            InstanceData::INFO,
+            ClusteringState::INFO,
+            DispatchSize::INFO,
+            PixelData::INFO,
+        ]);
+    }
+
+    #[test]
+    fn buffers_are_listed_in_the_order_of_their_bindings() {
+        for (position, (binding, ..)) in BUFFERS.iter().enumerate() {
+            assert_eq!(*binding as usize, position);
+        }
+        for (position, (_, counter)) in COUNTERS.iter().enumerate() {
+            assert_eq!(*counter as usize, position);
+        }
+    }
+}

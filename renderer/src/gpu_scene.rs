@@ -1,0 +1,149 @@
+//! A scene on the device: vertices, indices, materials, instances, textures.
+
+use crate::Result;
+use crate::draw_list::{Batch, Batches};
+use crate::gpu_interface::{InstanceData, MaterialData};
+use crate::layouts::{DescriptorSets, Layouts, MATERIAL_TEXTURES};
+use crate::scene::{Image, Material, Sampler, Scene, TextureRef, Wrap};
+use crate::vk::{self as gpu, Buffer, Context, SamplerCache};
+use ash::vk;
+use std::sync::Arc;
+
+/// A scene ready to draw.
+pub struct GpuScene {
+    /// [`crate::scene::Vertex`] of all primitives.
+    pub vertices: Buffer,
+    /// 32-bit indices.
+    pub indices: Buffer,
+    /// [`MaterialData`].
+    pub materials: Buffer,
+    /// [`InstanceData`] in drawing order.
+    pub instances: Buffer,
+    /// What can be drawn at once.
+    pub batches: Vec<Batch>,
+    /// The textures of each material.
+    pub material_sets: Vec<vk::DescriptorSet>,
+    _sets: DescriptorSets,
+    _textures: Vec<gpu::Image>,
+    _samplers: SamplerCache,
+}
+
+impl GpuScene {
+    /// Uploads `scene`, its instances in the order of `batches`.
+    pub fn new(context: &Arc<Context>, layouts: &Layouts, scene: &Scene, batches: &Batches) -> Result<Self> {
+        let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let materials: Vec<MaterialData> = scene.materials.iter().map(material_data).collect();
+        let instances: Vec<InstanceData> =
+            batches.instances.iter().map(|&i| instance_data(scene, i as usize)).collect();
+        let samplers = SamplerCache::new(context)?;
+        let mut textures = gpu::upload_textures(context, &scene.images)?;
+        textures.extend(gpu::upload_textures(context, &neutral_images())?);
+        let sets = DescriptorSets::new(
+            context,
+            layouts.material,
+            (vk::DescriptorType::COMBINED_IMAGE_SAMPLER, MATERIAL_TEXTURES),
+            scene.materials.len(),
+        )?;
+        for (material, &set) in scene.materials.iter().zip(&sets.sets) {
+            context.name(set, &material.name);
+            write_textures(context, set, material, &textures, &samplers);
+        }
+        Ok(Self {
+            vertices: Buffer::with_data(
+                context,
+                "vertices",
+                vk::BufferUsageFlags::VERTEX_BUFFER,
+                &scene.vertices,
+            )?,
+            indices: Buffer::with_data(
+                context,
+                "indices",
+                vk::BufferUsageFlags::INDEX_BUFFER,
+                &scene.indices,
+            )?,
+            materials: Buffer::with_data(context, "materials", storage, &materials)?,
+            instances: Buffer::with_data(context, "instances", storage, &instances)?,
+            batches: batches.batches.clone(),
+            material_sets: sets.sets.clone(),
+            _sets: sets,
+            _textures: textures,
+            _samplers: samplers,
+        })
+    }
+}
+
+fn material_data(material: &Material) -> MaterialData {
+    let mut uv_slots = 0;
+    let mut uv_rows = [[0.0; 3]; 10];
+    for (slot, texture) in material.textures.iter().enumerate() {
+        let [row0, row1] = texture.map_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], |t| t.uv_transform);
+        uv_slots |= texture.map_or(0, |t| t.uv_slot) << slot;
+        (uv_rows[2 * slot], uv_rows[2 * slot + 1]) = (row0, row1);
+    }
+    MaterialData {
+        base_color: material.base_color,
+        emissive: material.emissive,
+        metallic: material.metallic,
+        roughness: material.roughness,
+        normal_scale: material.normal_scale,
+        occlusion_strength: material.occlusion_strength,
+        alpha_cutoff: material.alpha_cutoff,
+        uv_slots,
+        uv_rows,
+    }
+}
+
+fn instance_data(scene: &Scene, index: usize) -> InstanceData {
+    let instance = &scene.instances[index];
+    InstanceData {
+        world_from_object: instance.world_from_object.to_cols_array_2d(),
+        material: scene.primitives[instance.primitive as usize].material,
+    }
+}
+
+/// Stand-ins for absent textures, appended to the scene's: white, then the flat normal.
+fn neutral_images() -> [Image; 2] {
+    let texel = |name: &str, rgba: [u8; 4]| Image {
+        name: name.into(),
+        width: 1,
+        height: 1,
+        srgb: false,
+        mips: vec![rgba.to_vec()],
+    };
+    [texel("white", [255; 4]), texel("flat normal", [128, 128, 255, 255])]
+}
+
+fn write_textures(
+    context: &Context,
+    set: vk::DescriptorSet,
+    material: &Material,
+    textures: &[gpu::Image],
+    samplers: &SamplerCache,
+) {
+    let neutral = [0, 0, 1, 0, 0].map(|which| textures.len() - 2 + which);
+    let plain = Sampler { wrap: [Wrap::Repeat; 2], nearest: false };
+    let infos: Vec<_> = material
+        .textures
+        .iter()
+        .zip(neutral)
+        .map(|(texture, neutral)| {
+            let image = texture.map_or(neutral, |TextureRef { image, .. }| image as usize);
+            [vk::DescriptorImageInfo::default()
+                .image_view(textures[image].view)
+                .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)
+                .sampler(samplers.get(texture.map_or(plain, |t| t.sampler)))]
+        })
+        .collect();
+    let writes: Vec<_> = infos
+        .iter()
+        .enumerate()
+        .map(|(binding, info)| {
+            vk::WriteDescriptorSet::default()
+                .dst_set(set)
+                .dst_binding(binding as u32)
+                .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
+                .image_info(info)
+        })
+        .collect();
+    unsafe { context.device.update_descriptor_sets(&writes, &[]) };
+}

@@ -1,0 +1,27 @@
+//! What buffers hold, and when they grew.
+
+use serde::Serialize;
+
+/// How many entries a clustering's buffers hold.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Capacities {
+    /// Visible clusters.
+    pub visible_clusters: u32,
+    /// Light indices.
+    pub light_indices: u32,
+}
+
+/// Buffers grew because a frame needed more, and the frame was rendered again.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct GrowthEvent {
+    /// Frame number in the recording.
+    pub frame: u32,
+    /// The clustering that needed most.
+    pub clustering: u32,
+    /// Which buffer: `visible_clusters` or `light_indices`.
+    pub buffer: String,
+    /// What it held.
+    pub from: u32,
+    /// What it holds since.
+    pub to: u32,
+}

@@ -1,0 +1,240 @@
+//! What a pass reads and writes, and the barriers that follow from it.
+
+use ash::vk;
+use ash::vk::Handle;
+
+/// How a pass uses a resource.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Use {
+    /// Storage buffer read by a compute shader.
+    ComputeRead,
+    /// Storage buffer written (and perhaps read) by a compute shader.
+    ComputeWrite,
+    /// Image sampled by a compute shader.
+    ComputeSample,
+    /// Storage buffer read by a fragment shader.
+    FragmentRead,
+    /// Storage buffer written (and perhaps read) by a fragment shader.
+    FragmentWrite,
+    /// Dispatch sizes read by the device.
+    Indirect,
+    /// Source of a copy or resolve.
+    TransferRead,
+    /// Destination of a copy, fill or resolve.
+    TransferWrite,
+    /// Colour attachment.
+    Color,
+    /// Depth attachment, tested and written.
+    Depth,
+    /// Depth attachment, tested only.
+    DepthTest,
+    /// Mapped memory read by the host once the frame has ended.
+    HostRead,
+}
+
+impl Use {
+    fn stage(self) -> vk::PipelineStageFlags2 {
+        use vk::PipelineStageFlags2 as S;
+        match self {
+            Self::ComputeRead | Self::ComputeWrite | Self::ComputeSample => S::COMPUTE_SHADER,
+            Self::FragmentRead | Self::FragmentWrite => S::FRAGMENT_SHADER,
+            Self::Indirect => S::DRAW_INDIRECT,
+            Self::TransferRead | Self::TransferWrite => S::ALL_TRANSFER,
+            Self::Color => S::COLOR_ATTACHMENT_OUTPUT,
+            Self::Depth | Self::DepthTest => S::EARLY_FRAGMENT_TESTS | S::LATE_FRAGMENT_TESTS,
+            Self::HostRead => S::HOST,
+        }
+    }
+
+    fn access(self) -> vk::AccessFlags2 {
+        use vk::AccessFlags2 as A;
+        match self {
+            Self::ComputeRead | Self::FragmentRead => A::SHADER_STORAGE_READ,
+            Self::ComputeWrite | Self::FragmentWrite => A::SHADER_STORAGE_READ | A::SHADER_STORAGE_WRITE,
+            Self::ComputeSample => A::SHADER_SAMPLED_READ,
+            Self::Indirect => A::INDIRECT_COMMAND_READ,
+            Self::TransferRead => A::TRANSFER_READ,
+            Self::TransferWrite => A::TRANSFER_WRITE,
+            Self::Color => A::COLOR_ATTACHMENT_READ | A::COLOR_ATTACHMENT_WRITE,
+            Self::Depth => A::DEPTH_STENCIL_ATTACHMENT_READ | A::DEPTH_STENCIL_ATTACHMENT_WRITE,
+            Self::DepthTest => A::DEPTH_STENCIL_ATTACHMENT_READ,
+            Self::HostRead => A::HOST_READ,
+        }
+    }
+
+    fn writes(self) -> bool {
+        matches!(
+            self,
+            Self::ComputeWrite | Self::FragmentWrite | Self::TransferWrite | Self::Color | Self::Depth
+        )
+    }
+
+    /// The layout an image must have; buffers have none.
+    fn layout(self) -> vk::ImageLayout {
+        match self {
+            Self::Color => vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
+            Self::Depth => vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL,
+            Self::DepthTest | Self::ComputeSample => vk::ImageLayout::DEPTH_READ_ONLY_OPTIMAL,
+            Self::TransferRead => vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
+            Self::TransferWrite => vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+            _ => vk::ImageLayout::UNDEFINED,
+        }
+    }
+}
+
+/// One resource with its use.
+#[derive(Debug, Clone, Copy)]
+pub struct Access {
+    resource: Resource,
+    usage: Use,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Resource {
+    Buffer(vk::Buffer),
+    Image(vk::Image, vk::ImageAspectFlags),
+}
+
+impl Access {
+    /// A whole buffer.
+    pub fn buffer(buffer: vk::Buffer, usage: Use) -> Self {
+        Self { resource: Resource::Buffer(buffer), usage }
+    }
+
+    /// A whole image with one mip level.
+    pub fn image(image: vk::Image, aspect: vk::ImageAspectFlags, usage: Use) -> Self {
+        Self { resource: Resource::Image(image, aspect), usage }
+    }
+}
+
+/// What has happened to a resource since the frame began.
+#[derive(Debug, Clone, Copy)]
+struct History {
+    resource: u64,
+    layout: vk::ImageLayout,
+    /// The last write, which later accesses must wait for.
+    write_stage: vk::PipelineStageFlags2,
+    write_access: vk::AccessFlags2,
+    /// Where that write has been made visible.
+    visible_stages: vk::PipelineStageFlags2,
+    visible_access: vk::AccessFlags2,
+    /// Readers since that write, which the next write must wait for.
+    read_stages: vk::PipelineStageFlags2,
+}
+
+/// Derives the barriers of one frame. Keeps its memory from frame to frame.
+#[derive(Debug, Default)]
+pub(super) struct Tracker {
+    histories: Vec<History>,
+    buffer_barriers: Vec<vk::BufferMemoryBarrier2<'static>>,
+    image_barriers: Vec<vk::ImageMemoryBarrier2<'static>>,
+}
+
+impl Tracker {
+    /// Forgets everything: a full barrier covers all earlier work, and images start undefined.
+    pub(super) fn begin_frame(&mut self) {
+        self.histories.clear();
+    }
+
+    /// Records the barriers that `accesses` need after all that was recorded before.
+    pub(super) fn synchronise(
+        &mut self,
+        device: &ash::Device,
+        commands: vk::CommandBuffer,
+        accesses: &[Access],
+    ) {
+        self.buffer_barriers.clear();
+        self.image_barriers.clear();
+        for access in accesses {
+            self.add(access);
+        }
+        if self.buffer_barriers.is_empty() && self.image_barriers.is_empty() {
+            return;
+        }
+        let dependency = vk::DependencyInfo::default()
+            .buffer_memory_barriers(&self.buffer_barriers)
+            .image_memory_barriers(&self.image_barriers);
+        unsafe { device.cmd_pipeline_barrier2(commands, &dependency) };
+    }
+
+    fn add(&mut self, access: &Access) {
+        let usage = access.usage;
+        let (stage, mask) = (usage.stage(), usage.access());
+        let history = self.history(access.resource);
+        let relayout = matches!(access.resource, Resource::Image(..)) && history.layout != usage.layout();
+        let old_layout = history.layout;
+        let (src_stage, src_access) = if usage.writes() || relayout {
+            let src = (history.write_stage | history.read_stages, history.write_access);
+            history.write_stage = stage;
+            history.write_access = if usage.writes() { mask } else { vk::AccessFlags2::NONE };
+            (history.visible_stages, history.visible_access) = (stage, mask);
+            history.read_stages = vk::PipelineStageFlags2::NONE;
+            history.layout = usage.layout();
+            src
+        } else {
+            let seen = history.visible_stages.contains(stage) && history.visible_access.contains(mask);
+            history.read_stages |= stage;
+            if seen || history.write_stage.is_empty() {
+                return;
+            }
+            history.visible_stages |= stage;
+            history.visible_access |= mask;
+            (history.write_stage, history.write_access)
+        };
+        if src_stage.is_empty() && !relayout {
+            return;
+        }
+        match access.resource {
+            Resource::Buffer(buffer) => self.buffer_barriers.push(
+                vk::BufferMemoryBarrier2::default()
+                    .src_stage_mask(src_stage)
+                    .src_access_mask(src_access)
+                    .dst_stage_mask(stage)
+                    .dst_access_mask(mask)
+                    .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+                    .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+                    .buffer(buffer)
+                    .size(vk::WHOLE_SIZE),
+            ),
+            Resource::Image(image, aspect) => self.image_barriers.push(
+                vk::ImageMemoryBarrier2::default()
+                    .src_stage_mask(src_stage)
+                    .src_access_mask(src_access)
+                    .dst_stage_mask(stage)
+                    .dst_access_mask(mask)
+                    .old_layout(old_layout)
+                    .new_layout(usage.layout())
+                    .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+                    .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+                    .image(image)
+                    .subresource_range(
+                        vk::ImageSubresourceRange::default()
+                            .aspect_mask(aspect)
+                            .level_count(1)
+                            .layer_count(1),
+                    ),
+            ),
+        }
+    }
+
+    fn history(&mut self, resource: Resource) -> &mut History {
+        let key = match resource {
+            Resource::Buffer(buffer) => buffer.as_raw(),
+            Resource::Image(image, _) => image.as_raw(),
+        };
+        let found = self.histories.iter().position(|history| history.resource == key);
+        let index = found.unwrap_or_else(|| {
+            self.histories.push(History {
+                resource: key,
+                layout: vk::ImageLayout::UNDEFINED,
+                write_stage: vk::PipelineStageFlags2::NONE,
+                write_access: vk::AccessFlags2::NONE,
+                visible_stages: vk::PipelineStageFlags2::NONE,
+                visible_access: vk::AccessFlags2::NONE,
+                read_stages: vk::PipelineStageFlags2::NONE,
+            });
+            self.histories.len() - 1
+        });
+        &mut self.histories[index]
+    }
+}

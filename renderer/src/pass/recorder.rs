@@ -1,0 +1,230 @@
+//! The recorder: labels, timestamp scopes and barriers of one frame's commands.
+
+use super::access::{Access, Tracker};
+use crate::vk::Context;
+use ash::vk;
+use std::fmt;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Name of a stage; `cluster[0]` where it has an index.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ScopeName {
+    stem: &'static str,
+    index: Option<u32>,
+}
+
+impl From<&'static str> for ScopeName {
+    fn from(stem: &'static str) -> Self {
+        Self { stem, index: None }
+    }
+}
+
+impl From<(&'static str, usize)> for ScopeName {
+    fn from((stem, index): (&'static str, usize)) -> Self {
+        Self { stem, index: Some(index as u32) }
+    }
+}
+
+impl fmt::Display for ScopeName {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self.index {
+            Some(index) => write!(f, "{}[{index}]", self.stem),
+            None => f.write_str(self.stem),
+        }
+    }
+}
+
+#[derive(Debug)]
+struct Scope {
+    name: ScopeName,
+    /// Position of the enclosing scope.
+    parent: Option<usize>,
+    path: String,
+    label: String,
+}
+
+/// The stages of a frame in execution order. It is built by the first frame and then only compared, so that
+/// later frames allocate nothing.
+#[derive(Debug, Default)]
+pub struct ScopeTree {
+    scopes: Vec<Scope>,
+}
+
+impl ScopeTree {
+    /// Paths such as `frame/cluster[0]/count_lights`, in execution order, parents first.
+    pub fn paths(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.scopes.iter().map(|scope| scope.path.as_str())
+    }
+
+    /// The scope at `position`, made (and what followed it dropped) where it is not the one of the last frame.
+    fn enter(&mut self, position: usize, name: ScopeName, parent: Option<usize>) {
+        let known = self.scopes.get(position).is_some_and(|s| s.name == name && s.parent == parent);
+        if known {
+            return;
+        }
+        self.scopes.truncate(position);
+        let label = name.to_string();
+        let path = match parent {
+            Some(parent) => format!("{}/{label}", self.scopes[parent].path),
+            None => label.clone(),
+        };
+        self.scopes.push(Scope { name, parent, path, label });
+    }
+}
+
+/// Timestamp queries of one frame in flight: two a scope.
+pub struct Timestamps {
+    context: Arc<Context>,
+    pool: vk::QueryPool,
+    values: Vec<u64>,
+    /// Scopes that got timestamps in the last frame recorded.
+    timed: usize,
+    cpu_ms: Vec<f64>,
+}
+
+/// More scopes than any method's stage tree has, for up to eight views.
+const MAX_SCOPES: usize = 128;
+
+impl Timestamps {
+    /// Queries for one frame in flight.
+    pub fn new(context: &Arc<Context>) -> crate::Result<Self> {
+        let info = vk::QueryPoolCreateInfo::default()
+            .query_type(vk::QueryType::TIMESTAMP)
+            .query_count(2 * MAX_SCOPES as u32);
+        let pool = unsafe { context.device.create_query_pool(&info, None) }
+            .map_err(|e| crate::Error::Device(format!("cannot create timestamp queries: {e}")))?;
+        context.name(pool, "timestamps");
+        Ok(Self {
+            context: context.clone(),
+            pool,
+            values: vec![0; 2 * MAX_SCOPES],
+            timed: 0,
+            cpu_ms: Vec::with_capacity(MAX_SCOPES),
+        })
+    }
+
+    /// (GPU, CPU) milliseconds of each scope of the last frame, in execution order. Its frame must have ended, so
+    /// that nothing is waited for; scopes without timestamps have a GPU time of NaN.
+    pub fn read(&mut self) -> crate::Result<impl ExactSizeIterator<Item = (f64, f64)> + '_> {
+        let values = &mut self.values[..2 * self.timed];
+        if !values.is_empty() {
+            let flags = vk::QueryResultFlags::TYPE_64;
+            unsafe { self.context.device.get_query_pool_results(self.pool, 0, values, flags) }.map_err(
+                |e| crate::Error::Internal(format!("timestamps of an ended frame are missing: {e}")),
+            )?;
+        }
+        let limits = &self.context.limits;
+        let mask = u64::MAX >> (64 - limits.timestamp_valid_bits.clamp(1, 64));
+        let period = limits.timestamp_period_ns;
+        let values = &self.values[..2 * self.timed];
+        Ok(self.cpu_ms.iter().enumerate().map(move |(scope, &cpu)| {
+            let gpu = values
+                .get(2 * scope..2 * scope + 2)
+                .map_or(f64::NAN, |pair| (pair[1].wrapping_sub(pair[0]) & mask) as f64 * period * 1e-6);
+            (gpu, cpu)
+        }))
+    }
+}
+
+impl Drop for Timestamps {
+    fn drop(&mut self) {
+        unsafe { self.context.device.destroy_query_pool(self.pool, None) };
+    }
+}
+
+/// Records one frame: every pass gets its label, its timestamp scope and its barriers here.
+pub struct Recorder<'a> {
+    /// For what passes record themselves.
+    pub context: &'a Context,
+    /// The frame's command buffer.
+    pub commands: vk::CommandBuffer,
+    tree: &'a mut ScopeTree,
+    timestamps: &'a mut Timestamps,
+    tracker: &'a mut FrameTracker,
+    /// How many scopes, from the outermost on, get timestamps.
+    timed_scopes: usize,
+    opened: usize,
+    current: Option<usize>,
+}
+
+/// Keeps the barrier tracker's memory from frame to frame.
+#[derive(Debug, Default)]
+pub struct FrameTracker(Tracker);
+
+impl<'a> Recorder<'a> {
+    /// Starts a frame on an open command buffer. `timed_scopes` limits how many scopes get timestamps (1: the
+    /// frame alone).
+    pub fn new(
+        context: &'a Context,
+        commands: vk::CommandBuffer,
+        tree: &'a mut ScopeTree,
+        timestamps: &'a mut Timestamps,
+        tracker: &'a mut FrameTracker,
+        timed_scopes: usize,
+    ) -> Self {
+        tracker.0.begin_frame();
+        timestamps.timed = 0;
+        timestamps.cpu_ms.clear();
+        unsafe { context.device.cmd_reset_query_pool(commands, timestamps.pool, 0, 2 * MAX_SCOPES as u32) };
+        let recorder =
+            Self { context, commands, tree, timestamps, tracker, timed_scopes, opened: 0, current: None };
+        recorder.full_barrier();
+        recorder
+    }
+
+    /// Runs `body` as a stage: labelled, timed, child of the stage that is open.
+    pub fn scope<R>(&mut self, name: impl Into<ScopeName>, body: impl FnOnce(&mut Self) -> R) -> R {
+        let position = self.opened;
+        assert!(position < MAX_SCOPES, "a frame has more than {MAX_SCOPES} stages");
+        self.opened += 1;
+        self.tree.enter(position, name.into(), self.current);
+        let outer = self.current.replace(position);
+        let timed = position < self.timed_scopes;
+        self.context.begin_label(self.commands, &self.tree.scopes[position].label);
+        self.timestamps.cpu_ms.push(0.0);
+        self.timestamps.timed += usize::from(timed);
+        self.timestamp(timed, 2 * position);
+        let start = Instant::now();
+        let result = body(self);
+        self.timestamps.cpu_ms[position] = start.elapsed().as_secs_f64() * 1e3;
+        self.timestamp(timed, 2 * position + 1);
+        self.context.end_label(self.commands);
+        self.current = outer;
+        result
+    }
+
+    /// Waits for what `accesses` need; the commands that follow may then do what they say.
+    pub fn access(&mut self, accesses: &[Access]) {
+        self.tracker.0.synchronise(&self.context.device, self.commands, accesses);
+    }
+
+    /// A timestamp that is right on every driver: lavapipe defers it into the work at hand unless a full
+    /// barrier follows.
+    fn timestamp(&self, timed: bool, query: usize) {
+        if !timed {
+            return;
+        }
+        let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
+        unsafe {
+            self.context.device.cmd_write_timestamp2(
+                self.commands,
+                stage,
+                self.timestamps.pool,
+                query as u32,
+            );
+        }
+        self.full_barrier();
+    }
+
+    fn full_barrier(&self) {
+        let barrier = vk::MemoryBarrier2::default()
+            .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+            .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+            .dst_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+            .dst_access_mask(vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE);
+        let barriers = [barrier];
+        let dependency = vk::DependencyInfo::default().memory_barriers(&barriers);
+        unsafe { self.context.device.cmd_pipeline_barrier2(self.commands, &dependency) };
+    }
+}

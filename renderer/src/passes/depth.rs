@@ -1,0 +1,19 @@
+//! Stage `depth[v]`: prepass of opaque and masked geometry.
+
+use super::draws;
+use crate::frame::Frame;
+use crate::pass::{Access, Recorder, Use};
+use ash::vk;
+
+/// Lays down one view's depth.
+pub fn record(r: &mut Recorder, frame: &Frame, view: usize) {
+    r.scope(("depth", view), |r| {
+        let target = &frame.targets[view];
+        r.access(&[Access::image(target.depth.handle, vk::ImageAspectFlags::DEPTH, Use::Depth)]);
+        draws::begin_rendering(r, frame, None, &draws::depth_attachment(frame, view, true));
+        let list = &frame.draw_lists[view];
+        draws::draw(r, frame, view, &frame.pipelines.depth_opaque, &list.opaque, false);
+        draws::draw(r, frame, view, &frame.pipelines.depth_masked, &list.masked, true);
+        draws::end_rendering(r);
+    });
+}

@@ -1,0 +1,328 @@
+//! Every shader variant, in one place, and the pipelines made from them.
+//!
+//! A variant is data: defines and specialization constants. Pipelines that several methods share are made once.
+
+use crate::config::Marking;
+use crate::draw_list::SurfaceKind;
+use crate::layouts::Layouts;
+use crate::lights::Attenuation;
+use crate::methods::{MethodSpec, Space};
+use crate::scene::Vertex;
+use crate::vk::{self as gpu, Context, GraphicsDesc, Pipeline, ShaderLibrary};
+use crate::{Error, Result};
+use ash::vk;
+use std::collections::BTreeMap;
+use std::mem::offset_of;
+use std::sync::Arc;
+
+/// Format of every view's depth.
+pub const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
+/// Format of every view's colour: linear HDR.
+pub const COLOR_FORMAT: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
+
+/// What a run's shaders are specialised for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Variant {
+    /// How lights are found.
+    pub method: MethodSpec,
+    /// Samples per pixel.
+    pub samples: u32,
+    /// Marking from depth shades per sample, marking from geometry per fragment.
+    pub marking: Marking,
+    /// How lights fade.
+    pub attenuation: Attenuation,
+    /// Whether counters are compiled in: the atemporal run.
+    pub counting: bool,
+}
+
+impl Variant {
+    /// Whether fragments run once per sample, so that they lie where the depth buffer says.
+    fn per_sample(&self) -> bool {
+        self.samples > 1 && self.marking == Marking::Depth
+    }
+
+    /// The defines of every shader of this variant.
+    fn defines(&self) -> Defines {
+        let (lookup, space) = match self.method {
+            MethodSpec::AllLights => ("LOOKUP_ALL_LIGHTS", "SPACE_PERSPECTIVE"),
+            MethodSpec::Clustered { space: Space::Ortho { .. }, .. } => {
+                ("LOOKUP_CLUSTERED", "SPACE_ORTHOGRAPHIC")
+            }
+            MethodSpec::Clustered { .. } => ("LOOKUP_CLUSTERED", "SPACE_PERSPECTIVE"),
+        };
+        Defines(vec![])
+            .with("LOOKUP", lookup)
+            .with("SPACE", space)
+            .with("SAMPLES", self.samples)
+            .with("PER_SAMPLE", u32::from(self.per_sample()))
+            .with("COUNTERS", u32::from(self.counting))
+    }
+}
+
+#[derive(Debug, Clone)]
+struct Defines(Vec<(&'static str, String)>);
+
+impl Defines {
+    fn with(&self, name: &'static str, value: impl ToString) -> Self {
+        let mut defines = self.0.clone();
+        defines.push((name, value.to_string()));
+        Self(defines)
+    }
+}
+
+/// The three dispatches of a prefix sum.
+pub struct ScanPipelines {
+    /// Items to block sums.
+    pub reduce: Arc<Pipeline>,
+    /// Block sums to block offsets.
+    pub block_offsets: Arc<Pipeline>,
+    /// Block offsets and items to prefixes.
+    pub apply: Arc<Pipeline>,
+}
+
+/// What clustered methods run besides.
+pub struct ClusteredPipelines {
+    /// Marking from depth.
+    pub mark_depth: Arc<Pipeline>,
+    /// Marking from geometry, by [`SurfaceKind`].
+    pub mark_geometry: [Arc<Pipeline>; 3],
+    /// Prefix sum of the visibility words.
+    pub compact: ScanPipelines,
+    /// Lights into clustering space.
+    pub transform_lights: Arc<Pipeline>,
+    /// Lengths of lists.
+    pub count_lights: Arc<Pipeline>,
+    /// Prefix sum of the lengths.
+    pub light_offsets: ScanPipelines,
+    /// The lists.
+    pub assign_lights: Arc<Pipeline>,
+    /// Fragment counts of visible clusters; counting variants alone use it.
+    pub gather_fragments: Arc<Pipeline>,
+}
+
+/// All pipelines of one variant.
+pub struct Pipelines {
+    /// Prepass of opaque geometry.
+    pub depth_opaque: Arc<Pipeline>,
+    /// Prepass of masked geometry.
+    pub depth_masked: Arc<Pipeline>,
+    /// Forward shading, by [`SurfaceKind`].
+    pub shade: [Arc<Pipeline>; 3],
+    /// What is known of each pixel, for images.
+    pub pixel_maps: Arc<Pipeline>,
+    clustered: Option<ClusteredPipelines>,
+}
+
+impl Pipelines {
+    /// The clustered methods' pipelines; only their passes ask.
+    pub fn clustered(&self) -> &ClusteredPipelines {
+        self.clustered.as_ref().expect("a pass of clustered methods runs in a clustered method")
+    }
+}
+
+/// Makes pipelines, each once.
+pub struct PipelineStore {
+    context: Arc<Context>,
+    layouts: Arc<Layouts>,
+    shaders: ShaderLibrary,
+    made: BTreeMap<String, Arc<Pipeline>>,
+}
+
+/// How a graphics pipeline uses depth and colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Output {
+    /// Writes depth.
+    Depth,
+    /// Tests depth for equality; writes buffers.
+    Marks(SurfaceKind),
+    /// Tests depth; writes colour.
+    Shades(SurfaceKind),
+}
+
+impl PipelineStore {
+    /// An empty store.
+    pub fn new(context: &Arc<Context>, layouts: &Arc<Layouts>, shaders: ShaderLibrary) -> Self {
+        Self { context: context.clone(), layouts: layouts.clone(), shaders, made: BTreeMap::new() }
+    }
+
+    /// All pipelines of a variant.
+    pub fn pipelines(&mut self, variant: &Variant) -> Result<Pipelines> {
+        let clustered = match variant.method {
+            MethodSpec::AllLights => None,
+            MethodSpec::Clustered { .. } => Some(self.clustered(variant)?),
+        };
+        Ok(Pipelines {
+            depth_opaque: self.graphics(variant, None, Output::Depth)?,
+            depth_masked: self.graphics(variant, Some("geometry/alpha_test.frag"), Output::Depth)?,
+            shade: self.per_kind(variant, "shade/forward.frag", Output::Shades)?,
+            pixel_maps: self.compute("measure/pixel_maps.comp", &variant.defines())?,
+            clustered,
+        })
+    }
+
+    fn clustered(&mut self, variant: &Variant) -> Result<ClusteredPipelines> {
+        let defines = variant.defines();
+        let brute = "assign/brute.comp";
+        Ok(ClusteredPipelines {
+            mark_depth: self.compute("cluster/mark_depth.comp", &defines)?,
+            mark_geometry: self.per_kind(variant, "cluster/mark_geometry.frag", Output::Marks)?,
+            compact: self.scan(&defines, "SCAN_VISIBILITY")?,
+            transform_lights: self.compute("assign/transform_lights.comp", &defines)?,
+            count_lights: self.compute(brute, &defines.with("WRITE_LISTS", 0))?,
+            light_offsets: self.scan(&defines, "SCAN_LIST_LENGTHS")?,
+            assign_lights: self.compute(brute, &defines.with("WRITE_LISTS", 1))?,
+            gather_fragments: self.compute("measure/gather_fragments.comp", &defines)?,
+        })
+    }
+
+    fn scan(&mut self, defines: &Defines, items: &str) -> Result<ScanPipelines> {
+        let defines = defines.with("SCAN_ITEMS", items);
+        Ok(ScanPipelines {
+            reduce: self.compute("scan/reduce.comp", &defines)?,
+            block_offsets: self.compute("scan/block_offsets.comp", &defines)?,
+            apply: self.compute("scan/apply.comp", &defines)?,
+        })
+    }
+
+    fn per_kind(
+        &mut self,
+        variant: &Variant,
+        fragment: &str,
+        output: impl Fn(SurfaceKind) -> Output,
+    ) -> Result<[Arc<Pipeline>; 3]> {
+        let [opaque, masked, transparent] = SurfaceKind::ALL;
+        Ok([
+            self.graphics(variant, Some(fragment), output(opaque))?,
+            self.graphics(variant, Some(fragment), output(masked))?,
+            self.graphics(variant, Some(fragment), output(transparent))?,
+        ])
+    }
+
+    fn compute(&mut self, path: &str, defines: &Defines) -> Result<Arc<Pipeline>> {
+        let key = format!("{path} {defines:?}");
+        if let Some(made) = self.made.get(&key) {
+            return Ok(made.clone());
+        }
+        let spirv = self.shaders.compile(path, &defines.0)?;
+        let pipeline =
+            Arc::new(gpu::compute_pipeline(&self.context, self.layouts.pipeline, &spirv, path, &[])?);
+        self.made.insert(key, pipeline.clone());
+        Ok(pipeline)
+    }
+
+    fn graphics(
+        &mut self,
+        variant: &Variant,
+        fragment: Option<&str>,
+        output: Output,
+    ) -> Result<Arc<Pipeline>> {
+        let defines = graphics_defines(variant, fragment.is_some(), output);
+        let key = format!("{fragment:?} {output:?} {:?} {defines:?}", variant.attenuation);
+        if let Some(made) = self.made.get(&key) {
+            return Ok(made.clone());
+        }
+        let vertex = self.shaders.compile("geometry/surface.vert", &defines.0)?;
+        let code = fragment.map(|path| self.shaders.compile(path, &defines.0)).transpose()?;
+        let attributes = vertex_attributes(varyings(fragment.is_some(), output));
+        let spec = [(0, variant.attenuation as u32)];
+        let shades = matches!(output, Output::Shades(_));
+        let desc = GraphicsDesc {
+            vertex: &vertex,
+            fragment: code.as_deref().map(Vec::as_slice),
+            spec: if shades { &spec } else { &[] },
+            bindings: &[vk::VertexInputBindingDescription {
+                binding: 0,
+                stride: size_of::<Vertex>() as u32,
+                input_rate: vk::VertexInputRate::VERTEX,
+            }],
+            attributes: &attributes,
+            dynamic_facing: true,
+            depth_write: output == Output::Depth,
+            depth_compare: Some(depth_compare(output)),
+            depth_format: Some(DEPTH_FORMAT),
+            color_format: shades.then_some(COLOR_FORMAT),
+            blend: output == Output::Shades(SurfaceKind::Transparent),
+            samples: vk::SampleCountFlags::from_raw(variant.samples),
+            sample_shading: variant.per_sample() && output != Output::Depth,
+            ..Default::default()
+        };
+        let name = fragment.unwrap_or("geometry/surface.vert");
+        let pipeline = Arc::new(gpu::graphics_pipeline(&self.context, self.layouts.pipeline, &desc, name)?);
+        self.made.insert(key, pipeline.clone());
+        Ok(pipeline)
+    }
+}
+
+fn graphics_defines(variant: &Variant, textured: bool, output: Output) -> Defines {
+    let defines = variant.defines().with("VARYINGS", varyings(textured, output));
+    match output {
+        Output::Depth => defines,
+        Output::Marks(kind) | Output::Shades(kind) => {
+            let name = match kind {
+                SurfaceKind::Opaque => "SURFACE_OPAQUE",
+                SurfaceKind::Masked => "SURFACE_MASKED",
+                SurfaceKind::Transparent => "SURFACE_TRANSPARENT",
+            };
+            defines.with("SURFACE", name)
+        }
+    }
+}
+
+/// What the vertex shader hands on: 0 nothing, 1 for the alpha test, 2 for shading.
+fn varyings(textured: bool, output: Output) -> u32 {
+    match output {
+        Output::Depth => u32::from(textured),
+        Output::Marks(kind) => u32::from(kind == SurfaceKind::Masked),
+        Output::Shades(_) => 2,
+    }
+}
+
+/// Depth is reversed; what the prepass drew is found again by equality, what is transparent lies before it.
+fn depth_compare(output: Output) -> vk::CompareOp {
+    match output {
+        Output::Depth => vk::CompareOp::GREATER,
+        Output::Marks(SurfaceKind::Transparent) | Output::Shades(SurfaceKind::Transparent) => {
+            vk::CompareOp::GREATER_OR_EQUAL
+        }
+        Output::Marks(_) | Output::Shades(_) => vk::CompareOp::EQUAL,
+    }
+}
+
+fn vertex_attributes(varyings: u32) -> Vec<vk::VertexInputAttributeDescription> {
+    use vk::Format as F;
+    let all = [
+        (0, 0, F::R32G32B32_SFLOAT, offset_of!(Vertex, position)),
+        (1, 2, F::R32G32B32_SFLOAT, offset_of!(Vertex, normal)),
+        (2, 2, F::R32G32B32A32_SFLOAT, offset_of!(Vertex, tangent)),
+        (3, 1, F::R32G32_SFLOAT, offset_of!(Vertex, uv)),
+        (4, 1, F::R32G32_SFLOAT, offset_of!(Vertex, uv) + size_of::<[f32; 2]>()),
+        (5, 1, F::R8G8B8A8_UNORM, offset_of!(Vertex, color)),
+    ];
+    all.into_iter()
+        .filter(|&(_, needed, ..)| needed <= varyings)
+        .map(|(location, _, format, offset)| vk::VertexInputAttributeDescription {
+            location,
+            binding: 0,
+            format,
+            offset: offset as u32,
+        })
+        .collect()
+}
+
+/// Refuses what the device cannot do, before anything is made.
+pub fn check_device(context: &Context, samples: u32, marking: Marking) -> Result<()> {
+    let limits = &context.limits;
+    if !limits.sample_counts.contains(&samples) {
+        return Err(Error::Device(format!(
+            "{} cannot render {samples} samples per pixel (it can: {:?}): change --msaa",
+            context.info.name, limits.sample_counts
+        )));
+    }
+    if samples > 1 && marking == Marking::Depth && !limits.sample_rate_shading {
+        return Err(Error::Device(format!(
+            "{} cannot shade per sample, which marking from depth needs with MSAA: use --marking geometry",
+            context.info.name
+        )));
+    }
+    Ok(())
+}

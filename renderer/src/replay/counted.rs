@@ -1,0 +1,89 @@
+//! What an atemporal frame counted on the device, read back and put into records.
+
+use super::engine::Engine;
+use super::session::Session;
+use crate::Result;
+use crate::clustering::segments;
+use crate::gpu_interface::{ClusteringState, Counter};
+use crate::measure::{ClusterLists, ClusterRecord, ClusteringCounts};
+use crate::passes::readback;
+use crate::vk::{Buffer, Memory};
+use ash::vk;
+
+/// Everything counted of one clustering in one frame.
+pub struct Counted {
+    state: ClusteringState,
+    counters: Vec<u32>,
+    lights_per_fragment: Vec<u32>,
+    visible_clusters: Vec<u32>,
+    visible_fragments: Vec<u32>,
+    /// The light lists.
+    pub lists: ClusterLists,
+}
+
+impl Counted {
+    /// Reads what the frame that ended in `slot` counted with `lights` lights; `state` is its state, zero for a
+    /// method without clusters.
+    pub fn read(
+        engine: &mut Engine,
+        session: &mut Session,
+        (slot, frame, clustering): (usize, u32, usize),
+        (state, lights): (ClusteringState, u32),
+    ) -> Result<Self> {
+        let segments = segments(lights).0;
+        let words = readback::counted_words(state.visible, segments, state.index_total, lights);
+        let size = 4 * words.iter().sum::<u64>();
+        let usage = vk::BufferUsageFlags::TRANSFER_DST;
+        let target = Buffer::new(&session.context, "counter readback", size, usage, Memory::Readback)?;
+        engine.follow_up(session, slot, |r, frame| {
+            if frame.clustered {
+                readback::gather_fragments(r, frame, clustering);
+            }
+            readback::copy_counted(r, frame, clustering, &words, &target);
+        })?;
+        let mut offset = 0;
+        let [counters, lights_per_fragment, visible_clusters, visible_fragments, offsets, indices] = words
+            .map(|words| {
+                let data: Vec<u32> = target.read(offset, words as usize);
+                offset += 4 * words;
+                data
+            });
+        let offsets = offsets.into_iter().step_by(segments as usize).collect();
+        let lists = ClusterLists { frame, clustering: clustering as u32, offsets, indices };
+        Ok(Self { state, counters, lights_per_fragment, visible_clusters, visible_fragments, lists })
+    }
+
+    /// One 64-bit counter.
+    pub fn counter(&self, counter: Counter) -> u64 {
+        let low = 2 * counter as usize;
+        u64::from(self.counters[low]) | u64::from(self.counters[low + 1]) << 32
+    }
+
+    /// (lights, fragments) of every bin with fragments, ascending.
+    pub fn lights_per_fragment(&self) -> Vec<(u32, u64)> {
+        let bins = (0..).zip(self.lights_per_fragment.iter().map(|&fragments| u64::from(fragments)));
+        bins.filter(|(_, fragments)| *fragments > 0).collect()
+    }
+
+    /// The clustering's record; `capacity` is how many light indices fitted.
+    pub fn clustering(&self, dimensions: [u32; 3], capacity: u32) -> ClusteringCounts {
+        let state = &self.state;
+        let clusters = self.visible_clusters.iter().zip(&self.visible_fragments).enumerate();
+        ClusteringCounts {
+            dimensions,
+            visible_clusters: u64::from(state.visible_total),
+            light_indices: u64::from(state.index_total),
+            intersection_tests: self.counter(Counter::IntersectionTests),
+            light_indices_dropped: u64::from(state.index_total.saturating_sub(capacity)),
+            visible_clusters_dropped: u64::from(state.visible_total - state.visible),
+            lists_hash: self.lists.hash(self.visible_clusters.iter().copied()),
+            clusters: clusters
+                .map(|(visible, (&index, &fragments))| ClusterRecord {
+                    index,
+                    fragments,
+                    lights: self.lists.list(visible).len() as u32,
+                })
+                .collect(),
+        }
+    }
+}

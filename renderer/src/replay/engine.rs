@@ -1,0 +1,282 @@
+//! One method under one lighting on the device: renders planned frames, and grows its buffers when one of them
+//! turns out to need more.
+
+use super::plan::{FramePlan, views_of_clusterings};
+use super::session::Session;
+use crate::Result;
+use crate::clustering::{
+    Clustering, ClusteringSizes, SharedBuffers, device_buffer, grid_data, gridless_data, view_data,
+};
+use crate::config::{Config, Marking, Scopes};
+use crate::frame::{self, Frame, SLOTS};
+use crate::gpu_interface::{ClusteringState, LightData};
+use crate::lights::PointLight;
+use crate::measure::{Capacities, GrowthEvent};
+use crate::methods::MethodSpec;
+use crate::pass::{Recorder, ScopeTree};
+use crate::pipelines::{Pipelines, Variant};
+use crate::vk::{Buffer, Context, Memory};
+use ash::vk;
+use std::sync::Arc;
+
+/// The device's part of a run in one mode: temporal (nothing counted) or atemporal (all counted).
+pub struct Engine {
+    context: Arc<Context>,
+    method: MethodSpec,
+    marking: Marking,
+    resolution: [u32; 2],
+    timed_scopes: usize,
+    pipelines: Pipelines,
+    sizes: ClusteringSizes,
+    lights: Buffer,
+    staging: [Buffer; SLOTS],
+    staged: Vec<LightData>,
+    clusterings: Vec<Clustering>,
+    /// Its frames' stages.
+    pub tree: ScopeTree,
+    /// What was grown, in order.
+    pub growth: Vec<GrowthEvent>,
+}
+
+/// Spare room when buffers grow, so that a camera on the move does not grow them each frame.
+const GROWTH_MARGIN: u32 = 5;
+
+impl Engine {
+    /// Makes pipelines and buffers for `plans`, which are all frames that will be rendered, with at most `lights`.
+    pub fn new(
+        session: &mut Session,
+        config: &Config,
+        method: MethodSpec,
+        plans: &[FramePlan],
+        (lights, capacities, counting): (u32, Capacities, bool),
+    ) -> Result<Self> {
+        let variant = Variant {
+            method,
+            samples: config.msaa,
+            marking: config.marking,
+            attenuation: config.attenuation,
+            counting,
+        };
+        let clustered = method != MethodSpec::AllLights;
+        let sizes = ClusteringSizes {
+            clusters: plans.iter().flat_map(|p| &p.grids).map(|g| g.cluster_count()).max().unwrap_or(0),
+            lights,
+            capacities: if clustered {
+                capacities
+            } else {
+                Capacities { visible_clusters: 0, light_indices: 0 }
+            },
+            counting,
+            pixels: u64::from(config.resolution[0]) * u64::from(config.resolution[1]),
+        };
+        sizes.check(&session.context.limits)?;
+        let light_bytes = (u64::from(lights) * size_of::<LightData>() as u64).max(16);
+        let staging = || {
+            let usage = vk::BufferUsageFlags::TRANSFER_SRC;
+            Buffer::new(&session.context, "light staging", light_bytes, usage, Memory::Upload)
+        };
+        let mut engine = Self {
+            context: session.context.clone(),
+            method,
+            marking: config.marking,
+            resolution: config.resolution,
+            timed_scopes: if config.scopes == Scopes::All { usize::MAX } else { 1 },
+            staging: [staging()?, staging()?],
+            lights: device_buffer(&session.context, "lights", light_bytes)?,
+            pipelines: session.store.pipelines(&variant)?,
+            sizes,
+            staged: Vec::with_capacity(lights as usize),
+            clusterings: vec![],
+            tree: ScopeTree::default(),
+            growth: vec![],
+        };
+        engine.make_clusterings(session)?;
+        Ok(engine)
+    }
+
+    /// What the buffers hold now.
+    pub fn capacities(&self) -> Capacities {
+        self.sizes.capacities
+    }
+
+    /// How it finds lights.
+    pub fn method(&self) -> MethodSpec {
+        self.method
+    }
+
+    /// Width and height of each view, pixels.
+    pub fn resolution(&self) -> [u32; 2] {
+        self.resolution
+    }
+
+    fn make_clusterings(&mut self, session: &Session) -> Result<()> {
+        self.clusterings.clear();
+        let shared = SharedBuffers {
+            views: [&session.slots[0].views, &session.slots[1].views],
+            lights: &self.lights,
+            materials: &session.scene.materials,
+            instances: &session.scene.instances,
+        };
+        for views in views_of_clusterings(&self.method, session.targets.len()) {
+            let clustering =
+                Clustering::new(&session.context, &session.layouts, &shared, &self.sizes, views)?;
+            self.clusterings.push(clustering);
+        }
+        Ok(())
+    }
+
+    /// Records and submits a frame into `slot`, whose last frame must have ended. `extend` may record more commands
+    /// before and after it.
+    pub fn submit(
+        &mut self,
+        session: &mut Session,
+        slot: usize,
+        plan: &FramePlan,
+        lights: &[PointLight],
+        extend: (&mut dyn FnMut(&mut Recorder, &Frame), &mut dyn FnMut(&mut Recorder, &Frame)),
+    ) -> Result<()> {
+        self.write_host_data(session, slot, plan, lights);
+        session.slots[slot].begin()?;
+        self.record(session, slot, |r, frame| {
+            (extend.0)(r, frame);
+            frame::record(r, frame);
+            (extend.1)(r, frame);
+        });
+        session.slots[slot].submit()
+    }
+
+    /// Records and submits commands that belong to the frame last rendered in `slot`, and waits for them.
+    pub fn follow_up(
+        &mut self,
+        session: &mut Session,
+        slot: usize,
+        commands: impl FnOnce(&mut Recorder, &Frame),
+    ) -> Result<()> {
+        session.slots[slot].begin()?;
+        self.record(session, slot, commands);
+        session.slots[slot].submit()?;
+        session.slots[slot].wait()
+    }
+
+    fn record(&mut self, session: &mut Session, slot: usize, body: impl FnOnce(&mut Recorder, &Frame)) {
+        let this = &mut session.slots[slot];
+        let frame = Frame {
+            layouts: &session.layouts,
+            pipelines: &self.pipelines,
+            scene: &session.scene,
+            draw_lists: &this.draw_lists,
+            targets: &session.targets,
+            clusterings: &self.clusterings,
+            clustered: self.method != MethodSpec::AllLights,
+            marking: self.marking,
+            lights: &self.lights,
+            light_staging: &self.staging[slot],
+            light_count: self.staged.len() as u32,
+            states: &this.states,
+            resolution: self.resolution,
+            slot,
+        };
+        let mut recorder = Recorder::new(
+            &session.context,
+            this.commands,
+            &mut self.tree,
+            &mut this.timestamps,
+            &mut session.tracker,
+            self.timed_scopes,
+        );
+        body(&mut recorder, &frame);
+    }
+
+    fn write_host_data(
+        &mut self,
+        session: &mut Session,
+        slot: usize,
+        plan: &FramePlan,
+        lights: &[PointLight],
+    ) {
+        let this = &mut session.slots[slot];
+        for (c, clustering) in self.clusterings.iter_mut().enumerate() {
+            let grid = plan.grids.get(c);
+            let count = lights.len() as u32;
+            let data =
+                grid.map_or_else(|| gridless_data(count), |g| grid_data(g, count, self.sizes.capacities));
+            clustering.word_count = data.word_count;
+            clustering.grids[slot].write(0, &[data]);
+            for v in clustering.views.clone() {
+                let data = view_data(&plan.views[v], grid, self.resolution);
+                this.views.write((v * size_of_val(&data)) as u64, &[data]);
+            }
+        }
+        for (view, list) in plan.views.iter().zip(&mut this.draw_lists) {
+            list.update(&session.batches, view);
+        }
+        self.staged.clear();
+        self.staged.extend(lights.iter().map(light_data));
+        self.staging[slot].write(0, &self.staged);
+    }
+
+    /// What the device found out in the frame that ended in `slot`.
+    pub fn states(&self, session: &Session, slot: usize) -> Vec<ClusteringState> {
+        session.slots[slot].states.read(0, self.clusterings.len())
+    }
+
+    /// Where the frame that ended in `slot` needed more than the buffers hold, grows them and says true: the frame
+    /// must be rendered again. No other frame may be in flight.
+    pub fn grow_if_needed(&mut self, session: &Session, slot: usize, frame: u32) -> Result<bool> {
+        if !self.overflowed(session, slot) {
+            return Ok(false);
+        }
+        session.context.wait_idle()?;
+        let states = self.states(session, slot);
+        let capacities = &mut self.sizes.capacities;
+        let needs: [(_, &mut u32, fn(&ClusteringState) -> u32); 2] = [
+            ("visible_clusters", &mut capacities.visible_clusters, |state| state.visible_total),
+            ("light_indices", &mut capacities.light_indices, |state| state.index_total),
+        ];
+        for (buffer, capacity, needed) in needs {
+            let most = states.iter().map(needed).enumerate().max_by_key(|&(_, needed)| needed);
+            let Some((clustering, needed)) = most.filter(|&(_, needed)| needed > *capacity) else { continue };
+            let (from, to) = (*capacity, with_margin(needed));
+            *capacity = to;
+            let buffer = buffer.to_owned();
+            self.growth.push(GrowthEvent { frame, clustering: clustering as u32, buffer, from, to });
+        }
+        self.make_clusterings(session)?;
+        Ok(true)
+    }
+
+    /// Whether the frame that ended in `slot` needed more than the buffers hold.
+    pub fn overflowed(&self, session: &Session, slot: usize) -> bool {
+        let Capacities { visible_clusters, light_indices } = self.sizes.capacities;
+        self.method != MethodSpec::AllLights
+            && self
+                .states(session, slot)
+                .iter()
+                .any(|s| s.visible_total > visible_clusters || s.index_total > light_indices)
+    }
+}
+
+fn with_margin(needed: u32) -> u32 {
+    needed.saturating_add(needed / GROWTH_MARGIN)
+}
+
+fn light_data(light: &PointLight) -> LightData {
+    LightData {
+        position: light.position,
+        r1: light.r1,
+        tint: light.tint,
+        intensity: light.intensity,
+        cutoff: light.cutoff,
+        r0: light.r0,
+    }
+}
+
+impl Drop for Engine {
+    fn drop(&mut self) {
+        // After an error a frame may still be running on these buffers; the error is already on its way.
+        let _ = self.context.wait_idle();
+    }
+}
+
+#[cfg(test)]
+mod tests;

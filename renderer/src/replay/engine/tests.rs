@@ -1,0 +1,282 @@
+//! The list-building passes on the device against their CPU twins, and the stage times against known work.
+
+use super::*;
+use crate::config::Lighting;
+use crate::geometry::{ClusterSpace, Frustum, Grid, SphereTest};
+use crate::methods::{Sharing, Space};
+use crate::passes::{assign, depth, readback, scan};
+use crate::rain::{Rain, RainParameters};
+use crate::scene::Scene;
+use crate::scene::procedural::by_name;
+use crate::views::{Pose, View};
+use crate::{clustering, cpu};
+use glam::{DQuat, DVec3};
+
+const PERSP: MethodSpec =
+    MethodSpec::Clustered { sharing: Sharing::Indi, space: Space::Persp { pixels: 64.0 } };
+const ORTHO: MethodSpec =
+    MethodSpec::Clustered { sharing: Sharing::Indi, space: Space::Ortho { metres: 4.0 } };
+const RESOLUTION: [u32; 2] = [64, 32];
+
+fn config() -> Config {
+    Config { resolution: RESOLUTION, validate: true, ..Config::default() }
+}
+
+fn street() -> Scene {
+    by_name("street").expect("a built-in scene")
+}
+
+fn view() -> View {
+    let pose = Pose { position: DVec3::new(1.0, 2.0, 3.0), rotation: DQuat::from_rotation_y(0.7) };
+    View { pose, frustum: Frustum::from_fov(1.3, RESOLUTION, 0.4, 100.0).unwrap() }
+}
+
+fn box_grid(dimensions: [u32; 3]) -> Grid {
+    let max = DVec3::from_array(dimensions.map(f64::from));
+    Grid { pose: view().pose, space: ClusterSpace::Orthographic { min: -max, max }, dimensions }
+}
+
+fn frustum_grid(dimensions: [u32; 3]) -> Grid {
+    let frustum = Frustum { x0: -1.2, x1: 1.0, y0: -0.7, y1: 0.9, z0: -100.0, z1: -0.4 };
+    let ratio = (100.0f64 / 0.4).powf(1.0 / f64::from(dimensions[2])) - 1.0;
+    Grid { pose: view().pose, space: ClusterSpace::Perspective { frustum, ratio }, dimensions }
+}
+
+fn lights(count: u32) -> Vec<PointLight> {
+    let lighting = Lighting { count, intensity: 20.0, cutoff: 0.5, r0: 0.1 };
+    Rain::new(&RainParameters::default(), &lighting, 1.0 / 90.0, 30).unwrap().lights().to_vec()
+}
+
+/// A device with one planned frame whose grid is `grid`, ready for single passes.
+struct Bench {
+    engine: Engine,
+    session: Session,
+    words: u64,
+}
+
+impl Bench {
+    fn new(method: MethodSpec, grid: Grid, lights: &[PointLight], capacities: Capacities) -> Self {
+        let config = config();
+        let mut session = Session::new(&config, &street(), 1).unwrap();
+        let words = grid.cluster_count().div_ceil(32);
+        let plan = FramePlan { frame: 0, views: vec![view()], grids: vec![grid] };
+        let plans = std::slice::from_ref(&plan);
+        let mut engine =
+            Engine::new(&mut session, &config, method, plans, (lights.len() as u32, capacities, true))
+                .unwrap();
+        engine.write_host_data(&mut session, 0, &plan, lights);
+        Self { engine, session, words }
+    }
+
+    fn run(&mut self, commands: impl FnOnce(&mut Recorder, &Frame)) {
+        self.engine.follow_up(&mut self.session, 0, commands).unwrap();
+        self.session.context.check_validation().unwrap();
+    }
+
+    /// Fills one of the clustering's buffers from the host.
+    fn upload(&mut self, pick: impl Fn(&Clustering) -> &Buffer, data: &[u32]) {
+        let usage = vk::BufferUsageFlags::TRANSFER_SRC;
+        let source =
+            Buffer::new(&self.session.context, "test data", 4 * data.len() as u64, usage, Memory::Upload)
+                .unwrap();
+        source.write(0, data);
+        self.run(|r, frame| {
+            readback::copy(r, &source, pick(&frame.clusterings[0]), 0, 4 * data.len() as u64);
+        });
+    }
+
+    fn download(&mut self, pick: impl Fn(&Clustering) -> &Buffer, words: usize) -> Vec<u32> {
+        let usage = vk::BufferUsageFlags::TRANSFER_DST;
+        let size = 4 * words as u64;
+        let target =
+            Buffer::new(&self.session.context, "test result", size, usage, Memory::Readback).unwrap();
+        self.run(|r, frame| readback::copy(r, pick(&frame.clusterings[0]), &target, 0, size));
+        target.read(0, words)
+    }
+
+    /// Marks clusters, compacts them, and gives the device's state.
+    fn compact(&mut self, bits: &[u32]) -> ClusteringState {
+        assert_eq!(bits.len() as u64, self.words);
+        self.upload(|c| &c.buffers.cluster_bits, bits);
+        self.run(|r, frame| {
+            scan::compact(r, frame, 0);
+            readback::states(r, frame);
+        });
+        self.engine.states(&self.session, 0)[0]
+    }
+}
+
+/// A small deterministic generator; quality does not matter here.
+fn noise(seed: u64) -> impl FnMut() -> u32 {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 32) as u32
+    }
+}
+
+/// Bits with about one in `sparsity` set, none beyond `clusters`.
+fn random_bits(clusters: u64, sparsity: u32, seed: u64) -> Vec<u32> {
+    let mut random = noise(seed);
+    let mut bits = vec![0; clusters.div_ceil(32) as usize];
+    for cluster in 0..clusters {
+        if random() % sparsity == 0 {
+            bits[(cluster / 32) as usize] |= 1 << (cluster % 32);
+        }
+    }
+    bits
+}
+
+fn fragments_of(bits: &[u32], clusters: u64) -> Vec<u32> {
+    (0..clusters).map(|c| bits[(c / 32) as usize] >> (c % 32) & 1).collect()
+}
+
+#[test]
+fn compaction_equals_its_twin_at_odd_sizes() {
+    for (case, clusters) in
+        [1u64, 31, 32, 33, 1023, 8191, 8193, 32 * 1024, 32 * 1024 + 1, 32 * 1024 * 257 + 5]
+            .into_iter()
+            .enumerate()
+    {
+        let room = Capacities { visible_clusters: clusters as u32, light_indices: 16 };
+        let mut bench = Bench::new(ORTHO, box_grid([clusters as u32, 1, 1]), &lights(10), room);
+        let bits = random_bits(clusters, 3, case as u64 + 1);
+        let twin = cpu::compact(&fragments_of(&bits, clusters));
+        let state = bench.compact(&bits);
+        assert_eq!(state.visible_total as usize, twin.visible.len(), "{clusters} clusters");
+        let visible = bench.download(|c| &c.buffers.visible_clusters, state.visible as usize);
+        assert_eq!(visible, twin.visible, "{clusters} clusters");
+        let ranks = bench.download(|c| &c.buffers.word_ranks, bits.len());
+        let counts: Vec<u32> = bits.iter().map(|word| word.count_ones()).collect();
+        assert_eq!(ranks, cpu::scan(&counts)[..bits.len()], "{clusters} clusters");
+    }
+}
+
+#[test]
+fn visible_clusters_beyond_the_capacity_are_counted() {
+    let room = Capacities { visible_clusters: 100, light_indices: 16 };
+    let mut bench = Bench::new(ORTHO, box_grid([5000, 1, 1]), &lights(10), room);
+    let bits = random_bits(5000, 2, 9);
+    let twin = cpu::compact(&fragments_of(&bits, 5000));
+    let state = bench.compact(&bits);
+    assert_eq!((state.visible_total as usize, state.visible), (twin.visible.len(), 100));
+    assert_eq!(bench.download(|c| &c.buffers.visible_clusters, 100), twin.visible[..100]);
+}
+
+#[test]
+fn list_offsets_equal_their_twin_at_odd_sizes() {
+    // 1000 lights make four segments a list.
+    for clusters in [1u32, 63, 255, 256, 257, 1025, 70_000] {
+        let room = Capacities { visible_clusters: clusters, light_indices: 16 };
+        let mut bench = Bench::new(ORTHO, box_grid([clusters, 1, 1]), &lights(1000), room);
+        let (segments, _) = clustering::segments(1000);
+        let state = bench.compact(&random_bits(u64::from(clusters), 1, 1));
+        let mut random = noise(u64::from(clusters));
+        let counts: Vec<u32> = (0..state.visible * segments).map(|_| random() % 100).collect();
+        bench.upload(|c| &c.buffers.segment_counts, &counts);
+        bench.run(|r, frame| {
+            scan::light_offsets(r, frame, 0);
+            readback::states(r, frame);
+        });
+        let twin = cpu::scan(&counts);
+        assert_eq!(bench.download(|c| &c.buffers.list_offsets, twin.len()), twin, "{clusters} clusters");
+        assert_eq!(Some(&bench.engine.states(&bench.session, 0)[0].index_total), twin.last());
+    }
+}
+
+/// Lists of the device equal the twin's, but for pairs that the twin itself marks as too close to call.
+fn lists_equal_their_twin(method: MethodSpec, grid: Grid, test: SphereTest, light_count: u32) {
+    let clusters = grid.cluster_count();
+    let lights = lights(light_count);
+    let room = Capacities { visible_clusters: clusters as u32, light_indices: 4_000_000 };
+    let mut bench = Bench::new(method, grid, &lights, room);
+    let bits = random_bits(clusters, 2, 5);
+    bench.compact(&bits);
+    bench.run(|r, frame| {
+        crate::passes::lights::record(r, frame);
+        assign::transform_lights(r, frame, 0);
+        assign::count_lights(r, frame, 0);
+        scan::light_offsets(r, frame, 0);
+        assign::assign_lights(r, frame, 0);
+        readback::states(r, frame);
+    });
+    let state = bench.engine.states(&bench.session, 0)[0];
+    assert!(state.index_total > 1000, "the case assigns next to nothing");
+    let segments = clustering::segments(light_count).0 as usize;
+    let visible = cpu::compact(&fragments_of(&bits, clusters)).visible;
+    let offsets = bench.download(|c| &c.buffers.list_offsets, visible.len() * segments + 1);
+    let indices = bench.download(|c| &c.buffers.light_indices, state.index_total as usize);
+    let twin = cpu::assign(&grid, &visible, &lights, test, 1e-4);
+    for i in 0..visible.len() {
+        let list = &indices[offsets[i * segments] as usize..offsets[(i + 1) * segments] as usize];
+        assert!(list.is_sorted(), "a list is not in ascending order");
+        let sure = |lights: &[u32]| -> Vec<u32> {
+            lights.iter().copied().filter(|light| !twin.borderline[i].contains(light)).collect()
+        };
+        assert_eq!(sure(list), sure(twin.list(i)), "cluster {}", visible[i]);
+    }
+}
+
+#[test]
+fn perspective_lists_equal_their_twin() {
+    for count in [1, 255, 1000, 5001] {
+        // One light alone may meet nothing, so that the case asks for enough of it.
+        let count = count.max(500);
+        lists_equal_their_twin(PERSP, frustum_grid([13, 9, 21]), SphereTest::HalfSpace, count);
+    }
+}
+
+#[test]
+fn orthographic_lists_equal_their_twin() {
+    lists_equal_their_twin(ORTHO, box_grid([23, 17, 29]), SphereTest::Box, 4097);
+}
+
+/// Two stages of known work, one of compute and one of rasterisation, each repeated as often as said; milliseconds.
+fn staged_times(bench: &mut Bench, compute: u32, raster: u32) -> [f64; 2] {
+    let mut best = [f64::INFINITY; 2];
+    for _ in 0..4 {
+        bench.run(|r, frame| {
+            r.scope("frame", |r| {
+                r.scope("compute", |r| {
+                    for _ in 0..compute {
+                        assign::count_lights(r, frame, 0);
+                    }
+                });
+                r.scope("raster", |r| {
+                    for _ in 0..raster {
+                        depth::record(r, frame, 0);
+                    }
+                });
+            });
+        });
+        let paths: Vec<String> = bench.engine.tree.paths().map(str::to_owned).collect();
+        let times: Vec<f64> =
+            bench.session.slots[0].timestamps.read().unwrap().map(|(gpu_ms, _)| gpu_ms).collect();
+        for (stage, best) in ["frame/compute", "frame/raster"].iter().zip(&mut best) {
+            let position = paths.iter().position(|path| path == stage).unwrap();
+            *best = best.min(times[position]);
+        }
+    }
+    best
+}
+
+/// Not a test of speed: whether a stage's time holds that stage's work and no other's.
+#[test]
+fn a_stage_ten_times_as_heavy_grows_alone() {
+    let room = Capacities { visible_clusters: 40_000, light_indices: 16 };
+    let lights = lights(1000);
+    let mut bench = Bench::new(PERSP, frustum_grid([32, 32, 32]), &lights, room);
+    bench.compact(&random_bits(32 * 32 * 32, 1, 3));
+    let [compute, raster] = staged_times(&mut bench, 1, 1);
+    let [heavy_compute, light_raster] = staged_times(&mut bench, 10, 1);
+    let [light_compute, heavy_raster] = staged_times(&mut bench, 1, 10);
+    assert!(heavy_compute > 4.0 * compute, "compute {compute} ms grew to {heavy_compute} ms only");
+    assert!(heavy_raster > 4.0 * raster, "raster {raster} ms grew to {heavy_raster} ms only");
+    assert!(light_raster < 3.0 * raster, "raster {raster} ms took {light_raster} ms beside heavy compute");
+    assert!(
+        light_compute < 3.0 * compute,
+        "compute {compute} ms took {light_compute} ms beside heavy raster"
+    );
+}

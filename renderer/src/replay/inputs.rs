@@ -1,0 +1,66 @@
+//! What a replay reads: scene, recording, lights.
+
+use crate::config::{self, Config, Lighting};
+use crate::lights::{self, LightSource, PointLight};
+use crate::rain::Rain;
+use crate::recording::{self, Recording};
+use crate::scene::{self, Scene, procedural};
+use crate::{Error, Result};
+use std::path::Path;
+
+/// Scene, recording and lights of a replay.
+pub struct Inputs {
+    /// What is drawn.
+    pub scene: Scene,
+    /// Cameras and rain.
+    pub recording: Recording,
+    /// Lights that do not move; `None` for rain.
+    static_lights: Option<Vec<PointLight>>,
+}
+
+impl Inputs {
+    /// Loads or generates what the config names.
+    ///
+    /// # Errors
+    /// A missing or broken file; a scene without point lights where they were asked for.
+    pub fn load(config: &Config) -> Result<Self> {
+        let recording = recording::load(&config.recording)?;
+        let static_file = config.lights_file.as_deref().map(lights::load_csv).transpose()?;
+        let scene = load_scene(&config.scene)?;
+        let static_lights = match static_file {
+            Some(lights) => Some(lights),
+            None if config.scene_lights => Some(scene_lights(&scene)?),
+            None => None,
+        };
+        Ok(Self { scene, recording, static_lights })
+    }
+
+    /// Lights for one run over the frames, at its first frame or before.
+    ///
+    /// # Errors
+    /// Rain that does not fit into memory or whose parameters are out of range.
+    pub fn light_source(&self, lights: &config::LightsFrom) -> Result<LightSource> {
+        match (lights, &self.static_lights) {
+            (config::LightsFrom::Rain(lighting), _) => {
+                let file = self.recording.file();
+                Ok(LightSource::Rain(Rain::new(&file.rain, lighting, file.dt_s, 0)?))
+            }
+            (_, Some(lights)) => Ok(LightSource::Static(lights.clone())),
+            (_, None) => Err(Error::Internal("static lights were not loaded".into())),
+        }
+    }
+}
+
+/// A built-in scene by its name, or a scene file.
+pub fn load_scene(name_or_path: &str) -> Result<Scene> {
+    match procedural::by_name(name_or_path) {
+        Some(scene) => Ok(scene),
+        None => scene::load(Path::new(name_or_path)),
+    }
+}
+
+/// The scene's point lights with the cut-off and near radius that rain has by default.
+fn scene_lights(scene: &Scene) -> Result<Vec<PointLight>> {
+    let Lighting { cutoff, r0, .. } = Lighting::with_count(1);
+    lights::from_scene(&scene.lights, cutoff, r0)
+}

@@ -1,0 +1,198 @@
+//! The replay: every method under every lighting, counted once and timed several times.
+//!
+//! ```text
+//! config ─> inputs (scene, recording, lights) ─> session (device) ─┬─> atemporal: counts, images
+//!                          └─> plan (views, grids) ────────────────┴─> temporal: stage times
+//! ```
+
+mod atemporal;
+mod counted;
+mod engine;
+pub mod inputs;
+mod plan;
+mod session;
+mod temporal;
+
+pub use inputs::Inputs;
+pub use plan::{FramePlan, plan_frames};
+
+use crate::config::Config;
+use crate::measure::{Capacities, ClusterLists, FrameCounts, FrameTimes, GrowthEvent, ViewPixels};
+use crate::output::PlannedRun;
+use crate::vk::DeviceInfo;
+use crate::{Error, Result};
+use engine::Engine;
+use session::Session;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, SystemTime};
+
+/// Takes what runs produce, as soon as it is there.
+pub trait RunSink {
+    /// A run begins.
+    fn begin(&mut self, run: &PlannedRun) -> Result<()>;
+    /// Images of one frame of the current run, a view each.
+    fn images(&mut self, frame: u32, views: &[ViewPixels]) -> Result<()>;
+    /// Light lists of one clustering of one frame of the current run; most sinks have no use for them.
+    fn lists(&mut self, _lists: ClusterLists) -> Result<()> {
+        Ok(())
+    }
+    /// The current run is complete.
+    fn finish(&mut self, run: &PlannedRun, result: RunResult) -> Result<()>;
+}
+
+/// How far a replay is and whether it should stop: the user's side of a long run.
+pub struct Watch<'a> {
+    /// Set to stop after the frame at hand.
+    pub interrupt: &'a AtomicBool,
+    /// Called after each frame submitted.
+    pub progress: &'a dyn Fn(),
+}
+
+impl Watch<'_> {
+    fn check(&self) -> Result<()> {
+        if self.interrupt.load(Ordering::Relaxed) {
+            return Err(Error::Interrupted(
+                "interrupted: the run at hand was left, complete runs are kept".into(),
+            ));
+        }
+        Ok(())
+    }
+
+    fn step(&self) {
+        (self.progress)();
+    }
+}
+
+/// Everything one run measured.
+pub struct RunResult {
+    /// A record a frame.
+    pub counts: Vec<FrameCounts>,
+    /// A record a frame and temporal run.
+    pub times: Vec<FrameTimes>,
+    /// What the buffers held at the end.
+    pub capacities: Capacities,
+    /// Frames that made them grow.
+    pub growth: Vec<GrowthEvent>,
+    /// The device it ran on.
+    pub device: DeviceInfo,
+    /// When it began.
+    pub started: SystemTime,
+    /// How long it took.
+    pub duration: Duration,
+}
+
+/// How many frames `runs` submit in all, for progress.
+///
+/// # Errors
+/// A frame range outside the recording.
+pub fn frame_total(config: &Config, inputs: &Inputs, runs: usize) -> Result<u64> {
+    let frames = config.frame_numbers(inputs.recording.frame_count())?.len() as u64;
+    Ok(frames * runs as u64 * (u64::from(config.runs) + 1))
+}
+
+/// Goes through `runs`, in order.
+///
+/// # Errors
+/// Bad input ([`Error::Input`], [`Error::File`]), a device that lacks something ([`Error::Device`]), a validation
+/// message ([`Error::Internal`]), an interruption ([`Error::Interrupted`]). Runs finished before are in the sink.
+pub fn replay(
+    config: &Config,
+    inputs: &Inputs,
+    runs: &[PlannedRun],
+    watch: &Watch,
+    sink: &mut dyn RunSink,
+) -> Result<()> {
+    // What can be refused without a device is refused first.
+    for run in runs {
+        plan_frames(config, &inputs.recording, &run.method)?;
+    }
+    let views = inputs.recording.view_names().len();
+    let mut session = Session::new(config, &inputs.scene, views)?;
+    for run in runs {
+        sink.begin(run)?;
+        let result = replay_run(config, inputs, &mut session, run, (watch, sink))?;
+        session.context.check_validation()?;
+        sink.finish(run, result)?;
+    }
+    // What the end of the device says counts too.
+    let log = session.context.validation_log();
+    drop(session);
+    log.check()
+}
+
+fn replay_run(
+    config: &Config,
+    inputs: &Inputs,
+    session: &mut Session,
+    run: &PlannedRun,
+    (watch, sink): (&Watch, &mut dyn RunSink),
+) -> Result<RunResult> {
+    let started = SystemTime::now();
+    let plans = plan_frames(config, &inputs.recording, &run.method)?;
+    let mut result = RunResult {
+        counts: Vec::with_capacity(plans.len()),
+        times: vec![],
+        capacities: Capacities {
+            visible_clusters: config.visible_cluster_capacity,
+            light_indices: config.light_index_capacity,
+        },
+        growth: vec![],
+        device: session.context.info.clone(),
+        started,
+        duration: Duration::ZERO,
+    };
+    count(config, inputs, session, (run, &plans), (watch, sink), &mut result)?;
+    if config.runs > 0 {
+        time(config, inputs, session, (run, &plans), watch, &mut result)?;
+    }
+    result.duration = started.elapsed().unwrap_or_default();
+    Ok(result)
+}
+
+/// The atemporal run: it comes first, so that buffers have grown before anything is timed.
+fn count(
+    config: &Config,
+    inputs: &Inputs,
+    session: &mut Session,
+    (run, plans): (&PlannedRun, &[FramePlan]),
+    (watch, sink): (&Watch, &mut dyn RunSink),
+    result: &mut RunResult,
+) -> Result<()> {
+    let mut lights = inputs.light_source(&run.lights)?;
+    let light_count = lights.at_frame(plans[0].frame).len() as u32;
+    let names: Vec<String> = inputs.recording.view_names().into_iter().map(str::to_owned).collect();
+    let mode = (light_count, result.capacities, true);
+    let mut engine = Engine::new(session, config, run.method, plans, mode)?;
+    for plan in plans {
+        watch.check()?;
+        let view_names = config.exr.contains(plan.frame).then_some(names.as_slice());
+        let about = (inputs.recording.time(plan.frame), view_names);
+        result.counts.push(atemporal::count_frame(&mut engine, session, plan, &mut lights, about, sink)?);
+        watch.step();
+    }
+    result.capacities = engine.capacities();
+    result.growth.append(&mut engine.growth);
+    Ok(())
+}
+
+fn time(
+    config: &Config,
+    inputs: &Inputs,
+    session: &mut Session,
+    (run, plans): (&PlannedRun, &[FramePlan]),
+    watch: &Watch,
+    result: &mut RunResult,
+) -> Result<()> {
+    let mut lights = inputs.light_source(&run.lights)?;
+    let light_count = lights.at_frame(plans[0].frame).len() as u32;
+    let mode = (light_count, result.capacities, false);
+    let mut engine = Engine::new(session, config, run.method, plans, mode)?;
+    temporal::warm_up(&mut engine, session, &plans[0], &mut lights)?;
+    for number in 0..config.runs {
+        let times = temporal::time_run(&mut engine, session, plans, &mut lights, number, watch)?;
+        result.times.extend(times);
+    }
+    result.capacities = engine.capacities();
+    result.growth.append(&mut engine.growth);
+    Ok(())
+}

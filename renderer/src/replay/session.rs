@@ -1,0 +1,213 @@
+//! What all runs of a replay share: device, scene, render targets, frames in flight.
+
+use crate::config::Config;
+use crate::draw_list::{Batches, DrawList};
+use crate::frame::{SLOTS, ViewTargets};
+use crate::gpu_interface::ViewData;
+use crate::gpu_scene::GpuScene;
+use crate::layouts::{DescriptorSets, Layouts};
+use crate::pass::{FrameTracker, Timestamps};
+use crate::passes::readback::STATE_BYTES;
+use crate::pipelines::{self, COLOR_FORMAT, DEPTH_FORMAT, PipelineStore};
+use crate::scene::Scene;
+use crate::vk::{Buffer, Context, DeviceOptions, Image, ImageDesc, Memory, ShaderLibrary};
+use crate::{Error, Result, gpu_interface};
+use ash::vk;
+use std::sync::Arc;
+
+/// One frame in flight: commands, fence, queries and what the host writes and reads.
+pub struct Slot {
+    context: Arc<Context>,
+    pool: vk::CommandPool,
+    /// Recorded anew each frame.
+    pub commands: vk::CommandBuffer,
+    /// Signalled when the frame has ended.
+    pub fence: vk::Fence,
+    /// Its scopes' times.
+    pub timestamps: Timestamps,
+    /// [`ViewData`] of all views, mapped.
+    pub views: Buffer,
+    /// Each clustering's state, mapped.
+    pub states: Buffer,
+    /// What each view draws.
+    pub draw_lists: Vec<DrawList>,
+}
+
+impl Slot {
+    fn new(context: &Arc<Context>, views: usize) -> Result<Self> {
+        let failed = |e: vk::Result| Error::Device(format!("cannot make a frame in flight: {e}"));
+        let device = &context.device;
+        let info = vk::CommandPoolCreateInfo::default()
+            .queue_family_index(context.queue_family)
+            .flags(vk::CommandPoolCreateFlags::TRANSIENT);
+        let pool = unsafe { device.create_command_pool(&info, None) }.map_err(failed)?;
+        let info = vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
+        let commands = unsafe { device.allocate_command_buffers(&info) }.map_err(failed)?[0];
+        let fence = unsafe { device.create_fence(&vk::FenceCreateInfo::default(), None) }.map_err(failed)?;
+        context.name(commands, "frame");
+        let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        Ok(Self {
+            context: context.clone(),
+            pool,
+            commands,
+            fence,
+            timestamps: Timestamps::new(context)?,
+            views: Buffer::new(
+                context,
+                "views",
+                (views * size_of::<ViewData>()) as u64,
+                storage,
+                Memory::Upload,
+            )?,
+            states: Buffer::new(
+                context,
+                "states",
+                views as u64 * STATE_BYTES,
+                vk::BufferUsageFlags::TRANSFER_DST,
+                Memory::Readback,
+            )?,
+            draw_lists: vec![DrawList::default(); views],
+        })
+    }
+
+    /// Opens the command buffer for recording; its last frame must have ended.
+    pub fn begin(&self) -> Result<()> {
+        let device = &self.context.device;
+        let info = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+        unsafe {
+            device
+                .reset_command_pool(self.pool, vk::CommandPoolResetFlags::empty())
+                .and_then(|()| device.begin_command_buffer(self.commands, &info))
+        }
+        .map_err(|e| Error::Internal(format!("cannot begin recording a frame: {e}")))
+    }
+
+    /// Closes the command buffer and hands it to the device.
+    pub fn submit(&self) -> Result<()> {
+        unsafe { self.context.device.end_command_buffer(self.commands) }
+            .map_err(|e| Error::Internal(format!("cannot end recording a frame: {e}")))?;
+        self.context.submit(self.commands, self.fence)
+    }
+
+    /// Waits until the submitted frame has ended.
+    pub fn wait(&self) -> Result<()> {
+        let device = &self.context.device;
+        unsafe {
+            device
+                .wait_for_fences(&[self.fence], true, u64::MAX)
+                .and_then(|()| device.reset_fences(&[self.fence]))
+        }
+        .map_err(|e| Error::Internal(format!("the device failed while rendering a frame: {e}")))
+    }
+}
+
+impl Drop for Slot {
+    fn drop(&mut self) {
+        let device = &self.context.device;
+        unsafe {
+            // A frame may still be running when an error unwinds.
+            let _ = device.device_wait_idle();
+            device.destroy_fence(self.fence, None);
+            device.destroy_command_pool(self.pool, None);
+        }
+    }
+}
+
+/// Device, scene, targets and frames in flight of a replay.
+pub struct Session {
+    /// Frames in flight; before everything they use, so that they end first.
+    pub slots: [Slot; SLOTS],
+    /// What each view is rendered into.
+    pub targets: Vec<ViewTargets>,
+    _depth_sets: DescriptorSets,
+    /// The scene on the device.
+    pub scene: GpuScene,
+    /// Its instances in drawing order.
+    pub batches: Batches,
+    /// Pipelines made so far.
+    pub store: PipelineStore,
+    /// The one pipeline layout.
+    pub layouts: Arc<Layouts>,
+    /// Memory of the barrier derivation.
+    pub tracker: FrameTracker,
+    /// The device.
+    pub context: Arc<Context>,
+}
+
+impl Session {
+    /// Opens the device and uploads `scene` for `views` views.
+    pub fn new(config: &Config, scene: &Scene, views: usize) -> Result<Self> {
+        let options = DeviceOptions { device: config.device.clone(), validate: config.validate };
+        let context = Context::new(&options)?;
+        pipelines::check_device(&context, config.msaa, config.marking)?;
+        check_resolution(&context, config.resolution)?;
+        let layouts = Arc::new(Layouts::new(&context)?);
+        let include = ("generated/gpu_interface.glsl".to_owned(), gpu_interface::glsl());
+        let shaders = ShaderLibrary::new(config.shaders.as_deref(), vec![include])?;
+        let batches = Batches::new(scene);
+        let gpu_scene = GpuScene::new(&context, &layouts, scene, &batches)?;
+        let depth_sets =
+            DescriptorSets::new(&context, layouts.depth, (vk::DescriptorType::SAMPLED_IMAGE, 1), views)?;
+        let targets = depth_sets
+            .sets
+            .iter()
+            .enumerate()
+            .map(|(view, &set)| targets(&context, config, view, set))
+            .collect::<Result<_>>()?;
+        Ok(Self {
+            slots: [Slot::new(&context, views)?, Slot::new(&context, views)?],
+            targets,
+            _depth_sets: depth_sets,
+            scene: gpu_scene,
+            batches,
+            store: PipelineStore::new(&context, &layouts, shaders),
+            layouts,
+            tracker: FrameTracker::default(),
+            context,
+        })
+    }
+}
+
+fn check_resolution(context: &Context, [width, height]: [u32; 2]) -> Result<()> {
+    let most = context.limits.max_image_dimension_2d;
+    if width > most || height > most {
+        return Err(Error::Device(format!(
+            "{} renders at most {most} x {most} pixels, {width} x {height} were asked for: change --resolution",
+            context.info.name
+        )));
+    }
+    Ok(())
+}
+
+fn targets(
+    context: &Arc<Context>,
+    config: &Config,
+    view: usize,
+    depth_set: vk::DescriptorSet,
+) -> Result<ViewTargets> {
+    use vk::ImageUsageFlags as U;
+    let [width, height] = config.resolution;
+    let image = |name: &str, format, samples: u32, usage, aspect| {
+        let samples = vk::SampleCountFlags::from_raw(samples);
+        let desc = ImageDesc { width, height, mip_levels: 1, format, samples, usage, aspect };
+        Image::new(context, &format!("{name}[{view}]"), desc)
+    };
+    let depth_usage = U::DEPTH_STENCIL_ATTACHMENT | U::SAMPLED;
+    let depth = image("depth", DEPTH_FORMAT, config.msaa, depth_usage, vk::ImageAspectFlags::DEPTH)?;
+    let color_usage = U::COLOR_ATTACHMENT | U::TRANSFER_SRC;
+    let color = image("color", COLOR_FORMAT, config.msaa, color_usage, vk::ImageAspectFlags::COLOR)?;
+    // A view needs a use that may have one.
+    let resolved_usage = U::TRANSFER_SRC | U::TRANSFER_DST | U::SAMPLED;
+    let resolved = (config.msaa > 1)
+        .then(|| image("resolved", COLOR_FORMAT, 1, resolved_usage, vk::ImageAspectFlags::COLOR))
+        .transpose()?;
+    let info = [vk::DescriptorImageInfo::default()
+        .image_view(depth.view)
+        .image_layout(vk::ImageLayout::DEPTH_READ_ONLY_OPTIMAL)];
+    let write = vk::WriteDescriptorSet::default()
+        .dst_set(depth_set)
+        .descriptor_type(vk::DescriptorType::SAMPLED_IMAGE)
+        .image_info(&info);
+    unsafe { context.device.update_descriptor_sets(&[write], &[]) };
+    Ok(ViewTargets { depth, color, resolved, depth_set })
+}

@@ -1,0 +1,121 @@
+//! Temporal runs: nothing is counted, every stage is timed, and a frame's times are read only once it has ended,
+//! while the next one runs.
+
+use super::Watch;
+use super::engine::Engine;
+use super::plan::FramePlan;
+use super::session::Session;
+use crate::Result;
+use crate::frame::Frame;
+use crate::frame::SLOTS;
+use crate::lights::LightSource;
+use crate::measure::{FrameTimes, StageTime};
+use crate::pass::Recorder;
+
+/// (GPU, CPU) milliseconds of every stage of every frame, in rendering order.
+#[derive(Default)]
+struct Samples {
+    frames: Vec<u32>,
+    times: Vec<(f64, f64)>,
+}
+
+/// Renders all frames once and times them.
+pub fn time_run(
+    engine: &mut Engine,
+    session: &mut Session,
+    plans: &[FramePlan],
+    lights: &mut LightSource,
+    run: u32,
+    watch: &Watch,
+) -> Result<Vec<FrameTimes>> {
+    let mut samples = Samples::default();
+    let mut in_flight: [Option<usize>; SLOTS] = [None; SLOTS];
+    let mut next = 0;
+    while next < plans.len() || in_flight.iter().any(Option::is_some) {
+        let slot = next % SLOTS;
+        if let Some(ended) = in_flight[slot].take()
+            && collect(engine, session, slot, &plans[ended], &mut samples)?
+        {
+            // The frame did not fit: whatever follows it is rendered again too.
+            abandon(session, &mut in_flight)?;
+            next = ended;
+            continue;
+        }
+        if next >= plans.len() {
+            // Nothing is left to submit: the oldest slot was read, now the other.
+            next += 1;
+            continue;
+        }
+        watch.check()?;
+        let plan = &plans[next];
+        engine.submit(session, slot, plan, lights.at_frame(plan.frame), (&mut nothing, &mut nothing))?;
+        in_flight[slot] = Some(next);
+        next += 1;
+        watch.step();
+    }
+    Ok(samples.into_frames(engine, run))
+}
+
+/// Renders one frame untimed: a pipeline's first use is dearer than the rest on some drivers.
+pub fn warm_up(
+    engine: &mut Engine,
+    session: &mut Session,
+    plan: &FramePlan,
+    lights: &mut LightSource,
+) -> Result<()> {
+    loop {
+        let lights = lights.at_frame(plan.frame);
+        engine.submit(session, 0, plan, lights, (&mut nothing, &mut nothing))?;
+        session.slots[0].wait()?;
+        if !engine.grow_if_needed(session, 0, plan.frame)? {
+            return Ok(());
+        }
+    }
+}
+
+fn nothing(_: &mut Recorder, _: &Frame) {}
+
+/// Waits for the frame in `slot` and keeps its times; true where it did not fit and must be rendered again.
+fn collect(
+    engine: &mut Engine,
+    session: &mut Session,
+    slot: usize,
+    plan: &FramePlan,
+    samples: &mut Samples,
+) -> Result<bool> {
+    session.slots[slot].wait()?;
+    if engine.overflowed(session, slot) {
+        return engine.grow_if_needed(session, slot, plan.frame);
+    }
+    samples.frames.push(plan.frame);
+    samples.times.extend(session.slots[slot].timestamps.read()?);
+    Ok(false)
+}
+
+fn abandon(session: &Session, in_flight: &mut [Option<usize>; SLOTS]) -> Result<()> {
+    for (slot, frame) in in_flight.iter_mut().enumerate() {
+        if frame.take().is_some() {
+            session.slots[slot].wait()?;
+        }
+    }
+    Ok(())
+}
+
+impl Samples {
+    fn into_frames(self, engine: &Engine, run: u32) -> Vec<FrameTimes> {
+        let paths: Vec<&str> = engine.tree.paths().collect();
+        self.frames
+            .iter()
+            .zip(self.times.chunks(paths.len().max(1)))
+            .map(|(&frame, times)| FrameTimes {
+                run,
+                frame,
+                stages: paths
+                    .iter()
+                    .zip(times)
+                    .map(|(path, &(gpu_ms, cpu_ms))| StageTime { stage: (*path).to_owned(), gpu_ms, cpu_ms })
+                    .collect(),
+            })
+            .collect()
+    }
+}

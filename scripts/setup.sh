@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# Installs what manylight needs and this machine lacks: a C++ compiler, the Vulkan loader, and lavapipe where no GPU
+# driver is there. With --validation also the validation layers. Idempotent, asks nothing, needs root or sudo only when
+# something is missing.
+set -euo pipefail
+
+packages=()
+
+need_command() { # COMMAND PACKAGE
+    command -v "$1" >/dev/null 2>&1 || packages+=("$2")
+}
+
+has_library() { # NAME
+    # Not every shell has /sbin in its path.
+    PATH="$PATH:/sbin:/usr/sbin" ldconfig -p | grep -q "$1"
+}
+
+has_driver() {
+    [ -n "${VK_DRIVER_FILES:-}${VK_ICD_FILENAMES:-}" ] && return 0
+    local directory
+    for directory in /usr/share/vulkan/icd.d /etc/vulkan/icd.d /usr/local/share/vulkan/icd.d "$HOME/.local/share/vulkan/icd.d"; do
+        compgen -G "$directory/*.json" >/dev/null && return 0
+    done
+    return 1
+}
+
+has_validation() {
+    local directory
+    for directory in /usr/share/vulkan/explicit_layer.d /etc/vulkan/explicit_layer.d /usr/local/share/vulkan/explicit_layer.d; do
+        compgen -G "$directory/VkLayer_khronos_validation*.json" >/dev/null && return 0
+    done
+    return 1
+}
+
+need_command g++ g++
+need_command git git
+has_library libvulkan.so.1 || packages+=(libvulkan1)
+has_driver || packages+=(mesa-vulkan-drivers)
+if [ "${1:-}" = --validation ]; then
+    has_validation || packages+=(vulkan-validationlayers)
+fi
+
+if [ ${#packages[@]} -gt 0 ]; then
+    if ! command -v apt-get >/dev/null 2>&1; then
+        echo "setup: please install (names as on Debian): ${packages[*]}" >&2
+        exit 2
+    fi
+    as_root=()
+    [ "$(id -u)" -eq 0 ] || as_root=(sudo)
+    echo "setup: installing ${packages[*]}" >&2
+    "${as_root[@]}" apt-get update -qq
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${packages[@]}" >/dev/null
+fi
+
+if ! command -v cargo >/dev/null 2>&1; then
+    echo "setup: cargo is missing: install Rust from https://rustup.rs" >&2
+    exit 2
+fi

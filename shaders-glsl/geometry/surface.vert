@@ -1,0 +1,44 @@
+// Vertices of the scene, for every geometry pass.
+//
+// VARYINGS: 0 position alone, 1 with texture coordinates and colour (alpha test), 2 with the tangent frame.
+#version 460
+#include "generated/gpu_interface.glsl"
+
+layout(location = 0) in vec3 position;
+#if VARYINGS >= 1
+layout(location = 3) in vec2 uv0;
+layout(location = 4) in vec2 uv1;
+layout(location = 5) in vec4 color;
+layout(location = 0) out vec4 out_uv;
+layout(location = 1) out vec4 out_color;
+layout(location = 2) flat out uint out_material;
+#endif
+#if VARYINGS >= 2
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) out vec3 out_normal;
+layout(location = 4) out vec4 out_tangent;
+#endif
+
+// The same bits in every pass: shading tests for equal depth.
+invariant gl_Position;
+
+void main()
+{
+    mat4 world_from_object = instances[gl_InstanceIndex].world_from_object;
+    vec4 world = world_from_object * vec4(position, 1.0);
+    gl_Position = views[push.view].clip_from_world * world;
+#if VARYINGS >= 1
+    out_uv = vec4(uv0, uv1);
+    out_color = color;
+    out_material = instances[gl_InstanceIndex].material;
+#endif
+#if VARYINGS >= 2
+    // The cofactor matrix carries normals through any affine map, mirroring included.
+    mat3 linear = mat3(world_from_object);
+    mat3 cofactor = mat3(cross(linear[1], linear[2]), cross(linear[2], linear[0]), cross(linear[0], linear[1]));
+    float mirrored = sign(determinant(linear));
+    out_normal = mirrored * (cofactor * normal);
+    out_tangent = vec4(linear * tangent.xyz, mirrored * tangent.w);
+#endif
+}

@@ -1,0 +1,55 @@
+// Cluster spaces (Gelderen sections 3.1, 4.2, 4.3): from a sample's pixel and depth to its cluster.
+//
+// Marking and shading call the same functions with the same pixel and depth, and every step is `precise`:
+// the index comes out with the same bits, so a shaded fragment always finds its cluster.
+#pragma once
+
+#include "generated/gpu_interface.glsl"
+
+// View-space position of a sample. `pixel` counts from the top left, in pixels; `depth` is reversed (1 near, 0 far).
+vec3 view_position(ViewData view, vec2 pixel, float depth)
+{
+    precise float distance = view.near * view.far / (clamp(depth, 0.0, 1.0) * (view.far - view.near) + view.near);
+    precise vec2 screen = pixel / vec2(view.resolution);
+    precise vec2 tangent = view.tangent_min + view.tangent_extent * vec2(screen.x, 1.0 - screen.y);
+    precise vec3 position = vec3(tangent * distance, -distance);
+    return position;
+}
+
+// Continuous cluster coordinates of a position in the clustering camera's space.
+vec3 cluster_coordinates(vec3 position)
+{
+#if SPACE == SPACE_PERSPECTIVE
+    precise vec2 tangent = position.xy / -position.z;
+    precise vec3 coordinates = vec3((tangent - grid.origin.xy) * grid.scale.xy, log2(-position.z / grid.origin.z) * grid.scale.z);
+#else
+    precise vec3 coordinates = (position - grid.origin) * grid.scale;
+#endif
+    return coordinates;
+}
+
+// Cell of a view-space position. Samples on the grid's far sides belong to the last cell.
+uvec3 cluster_cell(ViewData view, vec3 position)
+{
+    precise vec3 local = (view.clustering_from_view * vec4(position, 1.0)).xyz;
+    ivec3 cell = ivec3(floor(cluster_coordinates(local)));
+    return uvec3(clamp(cell, ivec3(0), ivec3(grid.dimensions) - 1));
+}
+
+uint linear_cluster(uvec3 cell)
+{
+    return cell.x + grid.dimensions.x * (cell.y + grid.dimensions.y * cell.z);
+}
+
+uvec3 cell_of_linear(uint cluster)
+{
+    uint slice = grid.dimensions.x * grid.dimensions.y;
+    uint in_slice = cluster % slice;
+    return uvec3(in_slice % grid.dimensions.x, in_slice / grid.dimensions.x, cluster / slice);
+}
+
+// Linear cluster index of a sample.
+uint cluster_of_sample(ViewData view, vec2 pixel, float depth)
+{
+    return linear_cluster(cluster_cell(view, view_position(view, pixel, depth)));
+}

@@ -1,0 +1,27 @@
+// Point lights and their attenuation (Gelderen appendix A). ATTENUATION is the position in the table of the host's enum.
+#pragma once
+
+#include "generated/gpu_interface.glsl"
+
+layout(constant_id = 0) const uint ATTENUATION = ATTENUATION_PHY_RED_2;
+
+// a(d) for R0 <= d < R1; beyond R1 there is no light.
+float attenuation(LightData light, float distance)
+{
+    float d = max(distance, light.r0);
+    if (d >= light.r1)
+        return 0.0;
+    float inverse_square = light.intensity / (d * d);
+    float x = d / light.r1;
+    switch (ATTENUATION) {
+    case ATTENUATION_PHY: return inverse_square;
+    case ATTENUATION_RED: return inverse_square - light.cutoff;
+    case ATTENUATION_SMO: return inverse_square + light.cutoff * (2.0 * x - 3.0);
+    case ATTENUATION_PHY_RED_1: return inverse_square - light.cutoff * x;
+    case ATTENUATION_PHY_RED_2: return inverse_square - light.cutoff * x * x;
+    case ATTENUATION_PHY_SMO_1: return inverse_square + light.cutoff * x * (2.0 * x - 3.0);
+    case ATTENUATION_PHY_SMO_2: return inverse_square + light.cutoff * x * x * (2.0 * x - 3.0);
+    case ATTENUATION_LIN: return light.intensity * (1.0 - x);
+    default: return 4.0 * light.intensity / (light.r1 * light.r1);
+    }
+}

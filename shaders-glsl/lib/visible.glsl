@@ -1,0 +1,26 @@
+// The visible clusters: one bit a cluster while marking, a rank query after compaction.
+#pragma once
+
+#include "generated/gpu_interface.glsl"
+
+const uint NO_CLUSTER = 0xFFFFFFFFu;
+
+// Marks a cluster visible. Reading first spares most atomics: many samples share a cluster.
+void mark_cluster(uint cluster)
+{
+    uint bit = 1u << (cluster & 31u);
+    if ((cluster_bits[cluster >> 5] & bit) == 0u)
+        atomicOr(cluster_bits[cluster >> 5], bit);
+#if COUNTERS
+    atomicAdd(fragment_counts[cluster], 1u);
+#endif
+}
+
+// Index of a cluster among the visible ones, or NO_CLUSTER where it is not marked or did not fit.
+uint visible_index(uint cluster)
+{
+    uint word = cluster_bits[cluster >> 5];
+    uint bit = 1u << (cluster & 31u);
+    uint index = word_ranks[cluster >> 5] + bitCount(word & (bit - 1u));
+    return (word & bit) != 0u && index < grid.visible_capacity ? index : NO_CLUSTER;
+}

@@ -1,0 +1,75 @@
+// Forward shading of one surface kind through one lookup.
+#version 460
+#include "lib/fragment_position.glsl"
+#include "lib/material.glsl"
+#if LOOKUP == LOOKUP_ALL_LIGHTS
+#include "lookup/all_lights.glsl"
+#else
+#include "lookup/clustered.glsl"
+#endif
+#include "lib/cluster_space.glsl"
+#include "lib/shade_point.glsl"
+
+// Depth is laid down by the prepass, and the counters must not see hidden fragments.
+layout(early_fragment_tests) in;
+
+layout(location = 0) in vec4 uv;
+layout(location = 1) in vec4 color;
+layout(location = 2) flat in uint material_index;
+layout(location = 3) in vec3 normal;
+layout(location = 4) in vec4 tangent;
+
+layout(location = 0) out vec4 out_color;
+
+// A faint even light, so that occlusion maps and places that no light reaches can be seen.
+const float AMBIENT = 0.02;
+// Shown where a fragment's cluster is missing (Gelderen figure 5.1).
+const vec3 MISSING_CLUSTER = vec3(1.0, 0.0, 1.0);
+
+vec3 shading_normal(MaterialData material)
+{
+    float facing = gl_FrontFacing ? 1.0 : -1.0;
+    vec3 n = normalize(normal);
+    vec3 t = tangent.xyz - n * dot(n, tangent.xyz);
+    vec3 mapped = texture(normal_texture, texture_uv(material, 2u, uv)).xyz * 2.0 - 1.0;
+    mapped.xy *= material.normal_scale;
+    if (dot(t, t) < 1e-12)
+        return facing * n;
+    t = normalize(t);
+    vec3 b = cross(n, t) * sign(tangent.w);
+    return facing * normalize(t * mapped.x + b * mapped.y + n * mapped.z);
+}
+
+Surface surface_at(MaterialData material, ViewData view, vec3 base)
+{
+    vec3 position = (view.world_from_view * vec4(view_position(view, fragment_pixel(), gl_FragCoord.z), 1.0)).xyz;
+    vec4 metallic_roughness = texture(metallic_roughness_texture, texture_uv(material, 1u, uv));
+    float metallic = clamp(material.metallic * metallic_roughness.b, 0.0, 1.0);
+    float roughness = clamp(material.roughness * metallic_roughness.g, 0.05, 1.0);
+    return Surface(position, shading_normal(material), normalize(view.world_from_view[3].xyz - position),
+                   base * (1.0 - metallic), mix(vec3(0.04), base, metallic), roughness * roughness);
+}
+
+void main()
+{
+    ViewData view = views[push.view];
+    MaterialData material = materials[material_index];
+    vec4 base = base_color(material, uv, color);
+#if SURFACE == SURFACE_MASKED
+    if (base.a < material.alpha_cutoff)
+        discard;
+#endif
+    LightCursor cursor;
+    if (!find_lights(view, fragment_pixel(), gl_FragCoord.z, cursor)) {
+        count(COUNTER_FRAGMENTS_SHADED, 1u);
+        count(COUNTER_FRAGMENTS_WITHOUT_CLUSTER, 1u);
+        out_color = vec4(MISSING_CLUSTER, 1.0);
+        return;
+    }
+    float occlusion = texture(occlusion_texture, texture_uv(material, 3u, uv)).r;
+    vec3 radiance = AMBIENT * base.rgb * mix(1.0, occlusion, material.occlusion_strength);
+    radiance += material.emissive * texture(emissive_texture, texture_uv(material, 4u, uv)).rgb;
+    radiance += shade_lights(surface_at(material, view, base.rgb), cursor);
+    // Half floats end at 65504; a light grazed at R0 may exceed that.
+    out_color = vec4(min(radiance, vec3(65504.0)), SURFACE == SURFACE_TRANSPARENT ? base.a : 1.0);
+}

@@ -1,0 +1,278 @@
+//! The program as its users meet it: files in, files out, exit codes, one clear line for what is wrong.
+
+use manylight_tests::manylight;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// A replay small enough for a test.
+fn small(out: &Path) -> Command {
+    let mut command = manylight();
+    command.args(["replay", "--quiet", "--resolution", "64x40", "--frames", "300..381/80", "--runs", "1"]);
+    command.args(["--method", "indi-persp-64", "--method", "encl-ortho-4", "--lights", "200"]);
+    command.arg("--out").arg(out);
+    command
+}
+
+fn output(command: &mut Command) -> Output {
+    command.output().expect("the program starts")
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn succeed(command: &mut Command) -> Output {
+    let output = output(command);
+    assert!(output.status.success(), "{}", stderr(&output));
+    output
+}
+
+/// The one line on standard error, after exit code 2.
+fn refused(command: &mut Command) -> String {
+    let output = output(command);
+    let message = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert_eq!(message.lines().count(), 1, "{message}");
+    assert!(message.starts_with("error: "), "{message}");
+    message
+}
+
+fn read(path: impl AsRef<Path>) -> String {
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.as_ref().display()))
+}
+
+#[test]
+fn a_replay_writes_every_file_and_the_table() {
+    let out = tempfile::tempdir().unwrap();
+    let printed = succeed(small(out.path()).args(["--exr", "300", "--validate"]));
+    let table = String::from_utf8_lossy(&printed.stdout).into_owned();
+    assert!(table.contains("indi-persp-64") && table.contains("encl-ortho-4"), "{table}");
+    assert_eq!(read(out.path().join("summary.csv")).lines().count(), 3);
+    for run in ["indi-persp-64", "encl-ortho-4"] {
+        let directory = out.path().join(run);
+        let rows = |name: &str| read(directory.join(name)).lines().count();
+        assert_eq!(rows("frames.csv"), 3);
+        assert!(rows("timings.csv") > 20);
+        assert_eq!(rows("clusterings.csv"), if run.starts_with("indi") { 5 } else { 3 });
+        assert!(rows("histograms.csv") > 10);
+        for image in ["000300.exr", "000300.png", "000300_lights.png", "000300_clusters.png"] {
+            assert!(directory.join("frames").join(image).is_file(), "{run}/{image}");
+        }
+        let manifest: serde_json::Value = serde_json::from_str(&read(directory.join("run.json"))).unwrap();
+        assert_eq!(manifest["format"], "manylight.run/1");
+        assert!(manifest["scene"]["sha256"].as_str().unwrap().len() == 64);
+    }
+}
+
+/// A file of tables without the columns of times.
+fn counters(path: &Path) -> Vec<Vec<String>> {
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    let timed: Vec<bool> = reader.headers().unwrap().iter().map(|name| name.contains("_ms")).collect();
+    reader
+        .records()
+        .map(|row| {
+            let row = row.unwrap();
+            let cells = row.iter().zip(&timed).filter(|(_, timed)| !**timed);
+            cells.map(|(cell, _)| cell.to_owned()).collect()
+        })
+        .collect()
+}
+
+#[test]
+fn two_replays_give_equal_counters_and_equal_images() {
+    let [a, b] = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+    for out in [&a, &b] {
+        succeed(small(out.path()).args(["--exr", "all"]));
+    }
+    for run in ["indi-persp-64", "encl-ortho-4"] {
+        let [a, b] = [a.path().join(run), b.path().join(run)];
+        assert_eq!(counters(&a.join("frames.csv")), counters(&b.join("frames.csv")));
+        for name in ["clusterings.csv", "histograms.csv", "frames/000300.exr", "frames/000380.exr"] {
+            assert_eq!(fs::read(a.join(name)).unwrap(), fs::read(b.join(name)).unwrap(), "{run}/{name}");
+        }
+    }
+}
+
+#[test]
+fn a_frame_is_the_same_alone_and_in_a_replay() {
+    let [alone, within] = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+    succeed(small(alone.path()).args(["--frames", "380", "--runs", "0"]));
+    succeed(small(within.path()).args(["--runs", "0"]));
+    let last = |out: &Path| counters(&out.join("encl-ortho-4/frames.csv")).pop().unwrap();
+    assert_eq!(last(alone.path()), last(within.path()));
+}
+
+#[test]
+fn small_buffers_grow_and_give_the_same_counters() {
+    let [roomy, tight] = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+    succeed(&mut small(roomy.path()));
+    succeed(small(tight.path()).args(["--visible-cluster-capacity", "3", "--light-index-capacity", "5"]));
+    let rows = |out: &Path| counters(&out.join("indi-persp-64/clusterings.csv"));
+    assert_eq!(rows(roomy.path()), rows(tight.path()));
+    let manifest: serde_json::Value =
+        serde_json::from_str(&read(tight.path().join("indi-persp-64/run.json"))).unwrap();
+    let growth = manifest["growth"].as_array().unwrap();
+    assert!(
+        growth.iter().any(|event| event["buffer"] == "visible_clusters" && event["from"] == 3),
+        "{growth:?}"
+    );
+    assert!(growth.iter().any(|event| event["buffer"] == "light_indices"), "{growth:?}");
+}
+
+#[test]
+fn attenuations_change_the_image_and_not_the_lists() {
+    let out = tempfile::tempdir().unwrap();
+    let images: Vec<(Vec<u8>, Vec<Vec<String>>)> = ["phy_red_2", "lin", "stp"]
+        .iter()
+        .map(|name| {
+            let out = out.path().join(name);
+            succeed(small(&out).args(["--attenuation", name, "--exr", "300", "--runs", "0"]));
+            let run = out.join("indi-persp-64");
+            (fs::read(run.join("frames/000300.png")).unwrap(), counters(&run.join("frames.csv")))
+        })
+        .collect();
+    assert!(images[0].0 != images[1].0 && images[1].0 != images[2].0);
+    assert_eq!(images[0].1, images[1].1);
+}
+
+#[test]
+fn what_cannot_be_rendered_is_refused_in_one_line() {
+    let out = tempfile::tempdir().unwrap();
+    let target = out.path().join("runs");
+    let cases: [(&[&str], &str); 16] = [
+        (&["--scene", "nowhere.gltf"], "nowhere.gltf"),
+        (&["--recording", "nowhere.json"], "nowhere.json"),
+        (&["--config", "nowhere.json"], "nowhere.json"),
+        (&["--lights-file", "nowhere.csv"], "nowhere.csv"),
+        (&["--shaders", "nowhere"], "nowhere"),
+        (&["--method", "indi-persp-0"], "indi-persp-0"),
+        (&["--method", "indi-displ-64-0"], "indi-displ-64-0"),
+        (&["--method", "indi-perps-64"], "indi-persp-64"),
+        (&["--resolution", "0x10"], "resolution"),
+        (&["--resolution", "64xNaN"], "64xNaN"),
+        (&["--frames", "600..700"], "670"),
+        (&["--lights", "10,NaN"], "NaN"),
+        (&["--msaa", "3"], "msaa"),
+        (&["--device", "no such device"], "no such device"),
+        (&["--attenuation", "phy_red2"], "phy_red_2"),
+        (&["--scene-lights"], "light"),
+    ];
+    for (flags, named) in cases {
+        let message = refused(small(&target).args(flags));
+        assert!(message.contains(named), "{flags:?}: {message}");
+        assert!(!target.join("indi-persp-64").exists(), "{flags:?} left output behind");
+    }
+}
+
+#[test]
+fn more_clusters_or_lights_than_the_device_holds_are_refused() {
+    let out = tempfile::tempdir().unwrap();
+    for flags in [["--method", "indi-ortho-0.05"], ["--lights", "4000000000"]] {
+        let mut command = small(out.path());
+        command.args(flags);
+        refused(&mut command);
+    }
+}
+
+#[test]
+fn an_output_that_cannot_be_written_is_refused_at_once() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("file");
+    fs::write(&file, "in the way").unwrap();
+    let message = refused(&mut small(&file.join("runs")));
+    assert!(message.contains("file"), "{message}");
+    assert_eq!(read(&file), "in the way");
+}
+
+#[test]
+fn broken_shaders_name_file_and_line() {
+    let directory = tempfile::tempdir().unwrap();
+    let shaders = directory.path().join("shaders-glsl");
+    let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders-glsl");
+    copy_tree(&sources, &shaders);
+    succeed(small(&directory.path().join("whole")).arg("--shaders").arg(&shaders).args(["--runs", "0"]));
+    let broken = shaders.join("lib/brdf.glsl");
+    fs::write(&broken, read(&broken).replace("const float PI", "const flaot PI")).unwrap();
+    let message = refused(small(&directory.path().join("broken")).arg("--shaders").arg(&shaders));
+    assert!(message.contains("lib/brdf.glsl:") && message.contains("shade/forward.frag"), "{message}");
+}
+
+fn copy_tree(from: &Path, to: &Path) {
+    fs::create_dir_all(to).unwrap();
+    for entry in fs::read_dir(from).unwrap() {
+        let entry = entry.unwrap();
+        let target = to.join(entry.file_name());
+        if entry.file_type().unwrap().is_dir() {
+            copy_tree(&entry.path(), &target);
+        } else {
+            fs::copy(entry.path(), target).unwrap();
+        }
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn an_interruption_keeps_complete_runs_and_says_so() {
+    let out = tempfile::tempdir().unwrap();
+    let mut command = manylight();
+    command.args(["replay", "--resolution", "64x40", "--frames", "..", "--runs", "1", "--lights", "200"]);
+    command.args(["--method", "indi-ortho-8", "--method", "encl-ortho-8", "--out"]).arg(out.path());
+    let mut child = command.stderr(std::process::Stdio::piped()).spawn().unwrap();
+    let first = out.path().join("indi-ortho-8/run.json");
+    while !first.exists() {
+        assert!(child.try_wait().unwrap().is_none(), "the replay ended before it was interrupted");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    let pid = child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    assert!(stderr(&output).contains("interrupted"), "{}", stderr(&output));
+    let names: Vec<String> = fs::read_dir(out.path())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    assert!(!names.iter().any(|name| name.starts_with("encl")), "half a run was left: {names:?}");
+    assert_eq!(read(out.path().join("summary.csv")).lines().count(), 2);
+}
+
+#[test]
+fn devices_and_scenes_are_described() {
+    let devices = succeed(manylight().args(["devices", "--json"]));
+    let devices: serde_json::Value = serde_json::from_slice(&devices.stdout).unwrap();
+    assert!(!devices["devices"].as_array().unwrap().is_empty(), "{devices}");
+    let scene = succeed(manylight().args(["scene", "street", "--json"]));
+    let scene: serde_json::Value = serde_json::from_slice(&scene.stdout).unwrap();
+    let triangles = scene["triangles"].as_u64().unwrap();
+    assert!((40_000..60_000).contains(&triangles), "{triangles} triangles");
+}
+
+#[test]
+fn recordings_are_imported_and_baked_and_flown() {
+    let directory = tempfile::tempdir().unwrap();
+    let imported = directory.path().join("imported.json");
+    let source = manylight_tests::data("replay_bistro.bin");
+    succeed(manylight().arg("import-recording").arg(source).args(["--hmd", "vive", "--out"]).arg(&imported));
+    let bundled = Path::new(env!("CARGO_MANIFEST_DIR")).join("../recordings/bistro-vive.json");
+    assert_eq!(read(&imported), read(bundled));
+
+    let waypoints = directory.path().join("waypoints.json");
+    fs::write(
+        &waypoints,
+        r#"{"format": "manylight.waypoints/1", "dt_s": 0.05, "near": 0.4, "far": 100, "fov": 1.2, "waypoints": [
+            {"position": [0, 20, 0], "target": [10, 0, 10], "time_s": 0},
+            {"position": [5, 22, 0], "target": [10, 0, 10], "time_s": 0.5}]}"#,
+    )
+    .unwrap();
+    let baked = directory.path().join("baked.json");
+    succeed(manylight().arg("bake-recording").arg(&waypoints).arg("--out").arg(&baked));
+    let out = directory.path().join("out");
+    succeed(small(&out).args(["--frames", "0..2", "--recording"]).arg(&baked));
+}
+
+#[test]
+fn completions_are_written_for_a_shell() {
+    let script = succeed(manylight().args(["completions", "bash"]));
+    assert!(String::from_utf8_lossy(&script.stdout).contains("--displaced-volume"));
+}

@@ -1,0 +1,115 @@
+//! All methods shade every frame alike: as brute force over all lights does, mono and stereo, at one and at four
+//! samples a pixel, marked from depth and from geometry.
+
+use manylight::config::{Config, ExrFrames, FrameRange, Marking};
+use manylight::measure::ViewPixels;
+use manylight::output::tone_map;
+use manylight_tests::{Run, run};
+
+const METHODS: [&str; 7] = [
+    "all-lights",
+    "indi-persp-64",
+    "encl-persp-64",
+    "indi-ortho-4",
+    "encl-ortho-4",
+    "indi-displ-64-32",
+    "encl-displ-64-32",
+];
+
+fn config(recording: &str, msaa: u32, marking: Marking) -> Config {
+    Config {
+        recording: recording.to_owned(),
+        methods: METHODS.map(|name| name.parse().unwrap()).to_vec(),
+        resolution: [80, 48],
+        msaa,
+        marking,
+        frames: FrameRange { first: 100, end: Some(581), step: 240 },
+        runs: 0,
+        exr: ExrFrames::All,
+        ..Config::default()
+    }
+}
+
+/// Largest differences of colour: after tone mapping in steps of 1/255, and relative in HDR.
+fn difference(a: &ViewPixels, b: &ViewPixels) -> (u8, f32) {
+    let rgb = |pixels: &ViewPixels, at: usize| [0, 1, 2].map(|channel| pixels.color[at][channel].to_f32());
+    let mut most = (0, 0.0f32);
+    for at in 0..a.color.len() {
+        let (x, y) = (rgb(a, at), rgb(b, at));
+        let (mapped_x, mapped_y) = (tone_map(x), tone_map(y));
+        for channel in 0..3 {
+            most.0 = most.0.max(mapped_x[channel].abs_diff(mapped_y[channel]));
+            let scale = x[channel].abs().max(y[channel].abs()).max(1e-3);
+            most.1 = most.1.max((x[channel] - y[channel]).abs() / scale);
+        }
+    }
+    most
+}
+
+fn check(recording: &str, msaa: u32, marking: Marking) {
+    let runs = run(config(recording, msaa, marking));
+    let truth = &runs[0];
+    for run in &runs[1..] {
+        let name = &run.planned.name;
+        for ((frame, views), (_, truth_views)) in run.images.iter().zip(&truth.images) {
+            for (view, truth_view) in views.iter().zip(truth_views) {
+                let (mapped, relative) = difference(view, truth_view);
+                assert!(mapped <= 1, "{name} frame {frame}: {mapped}/255 from all lights");
+                assert!(relative <= 0.005, "{name} frame {frame}: {relative} in HDR from all lights");
+            }
+        }
+        check_counts(run, truth);
+    }
+}
+
+fn check_counts(run: &Run, truth: &Run) {
+    for (counts, truth) in run.counts.iter().zip(&truth.counts) {
+        let name = &run.planned.name;
+        assert_eq!(counts.fragments_without_cluster, 0, "{name}");
+        assert_eq!(counts.fragments_shaded, truth.fragments_shaded, "{name}");
+        assert_eq!(
+            counts.needed_computations, truth.needed_computations,
+            "{name} lost a light that is needed"
+        );
+        assert!(counts.lighting_computations >= counts.needed_computations, "{name}");
+        let marked: u64 =
+            counts.clusterings.iter().flat_map(|c| &c.clusters).map(|c| u64::from(c.fragments)).sum();
+        assert_eq!(marked, counts.fragments_shaded, "{name}: fragments marked and shaded");
+        let by_lights: u64 =
+            counts.lights_per_fragment.iter().flatten().map(|(_, fragments)| fragments).sum();
+        assert_eq!(by_lights, counts.fragments_shaded, "{name}: histogram of lights per fragment");
+        for clustering in &counts.clusterings {
+            assert_eq!((clustering.light_indices_dropped, clustering.visible_clusters_dropped), (0, 0));
+        }
+    }
+}
+
+#[test]
+fn mono() {
+    check("bistro", 1, Marking::Depth);
+}
+
+#[test]
+fn mono_marked_from_geometry() {
+    check("bistro", 1, Marking::Geometry);
+}
+
+#[test]
+fn stereo() {
+    check("bistro-vive", 1, Marking::Depth);
+}
+
+#[test]
+fn mono_with_four_samples() {
+    check("bistro", 4, Marking::Depth);
+}
+
+#[test]
+fn stereo_with_four_samples_marked_from_geometry() {
+    check("bistro-vive", 4, Marking::Geometry);
+}
+
+#[test]
+fn stereo_with_four_samples() {
+    check("bistro-vive", 4, Marking::Depth);
+}

@@ -1,0 +1,100 @@
+//! Golden image and counters of every method on lavapipe. `MANYLIGHT_BLESS=1` rewrites them.
+//!
+//! Other devices rasterise edges and filter textures differently: there the test only says that it compared nothing.
+
+use manylight::config::{Config, ExrFrames, FrameRange};
+use manylight::output::image_preview;
+use manylight_tests::{Run, blessing, data, run};
+use std::fmt::Write as _;
+use std::fs;
+
+fn golden(methods: &[&str], scene: &str, recording: &str, file: &str) {
+    let runs = run(Config {
+        scene: scene.to_owned(),
+        recording: recording.to_owned(),
+        methods: methods.iter().map(|name| name.parse().unwrap()).collect(),
+        resolution: [96, 64],
+        frames: FrameRange { first: 300, end: Some(581), step: 280 },
+        runs: 0,
+        exr: ExrFrames::List(vec![300]),
+        ..Config::default()
+    });
+    if !runs[0].result.device.name.contains("llvmpipe") {
+        eprintln!("golden files are lavapipe's; {} was not compared", runs[0].result.device.name);
+        return;
+    }
+    for run in &runs {
+        compare_image(run, scene);
+    }
+    compare_counters(&runs, file);
+}
+
+fn compare_image(run: &Run, scene: &str) {
+    let (frame, views) = &run.images[0];
+    let image = image_preview(views);
+    let path = data(&format!("golden/{scene}_{}_{frame}.png", run.planned.name));
+    if blessing() {
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        image.save(&path).unwrap();
+        return;
+    }
+    let expected = image::open(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display())).into_rgb8();
+    assert_eq!(image.dimensions(), expected.dimensions());
+    let most = image.iter().zip(expected.iter()).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0);
+    // Machines differ in vector width, and so in the last bit of what lavapipe computes.
+    assert!(most <= 2, "{} differs from {} by {most}/255", run.planned.name, path.display());
+}
+
+fn compare_counters(runs: &[Run], file: &str) {
+    let mut text = String::from("run,frame,clusters,visible_clusters,light_indices,lighting_computations,");
+    text.push_str("needed_computations,fragments_shaded,lists_hash\n");
+    for run in runs {
+        for counts in &run.counts {
+            let sum = |value: fn(&manylight::measure::ClusteringCounts) -> u64| -> u64 {
+                counts.clusterings.iter().map(value).sum()
+            };
+            let hashes: Vec<String> =
+                counts.clusterings.iter().map(|c| format!("{:016x}", c.lists_hash)).collect();
+            writeln!(
+                text,
+                "{},{},{},{},{},{},{},{},{}",
+                run.planned.name,
+                counts.frame,
+                sum(|c| c.dimensions.iter().map(|&d| u64::from(d)).product()),
+                sum(|c| c.visible_clusters),
+                sum(|c| c.light_indices),
+                counts.lighting_computations,
+                counts.needed_computations,
+                counts.fragments_shaded,
+                hashes.join(" ")
+            )
+            .unwrap();
+        }
+    }
+    let path = data(&format!("golden/{file}.csv"));
+    if blessing() {
+        fs::write(&path, text).unwrap();
+        return;
+    }
+    let expected = fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    assert_eq!(text, expected, "counters differ from {}", path.display());
+}
+
+#[test]
+fn street() {
+    let methods = [
+        "all-lights",
+        "indi-persp-64",
+        "encl-persp-64",
+        "indi-ortho-4",
+        "encl-ortho-4",
+        "indi-displ-64-32",
+        "encl-displ-64-32",
+    ];
+    golden(&methods, "street", "bistro-vive", "street");
+}
+
+#[test]
+fn temple() {
+    golden(&["indi-persp-64", "encl-ortho-4"], "temple", "suntem", "temple");
+}

@@ -1,0 +1,48 @@
+//! Every method under the validation layers, with synchronization validation, and no barrier but those that passes
+//! derive: timestamps of single stages, whose barriers would hide a missing one, are left out.
+
+use manylight::config::{Config, ExrFrames, FrameRange, Marking, Scopes};
+use manylight_tests::run;
+
+fn silent(recording: &str, msaa: u32, marking: Marking) {
+    let names = [
+        "all-lights",
+        "indi-persp-64",
+        "encl-persp-64",
+        "indi-ortho-4",
+        "encl-ortho-4",
+        "indi-displ-64-32",
+        "encl-displ-64-32",
+    ];
+    let runs = run(Config {
+        recording: recording.to_owned(),
+        methods: names.map(|name| name.parse().unwrap()).to_vec(),
+        resolution: [48, 32],
+        msaa,
+        marking,
+        scopes: Scopes::Frame,
+        frames: FrameRange { first: 290, end: Some(320), step: 10 },
+        runs: 1,
+        exr: ExrFrames::List(vec![300]),
+        ..Config::default()
+    });
+    for run in &runs {
+        assert_eq!(run.times.len(), 3, "{}", run.planned.name);
+        assert!(run.times.iter().all(|frame| frame.stages[0].gpu_ms > 0.0), "{}", run.planned.name);
+    }
+}
+
+#[test]
+fn marked_from_depth() {
+    silent("bistro-vive", 1, Marking::Depth);
+}
+
+#[test]
+fn marked_from_geometry_with_four_samples() {
+    silent("bistro", 4, Marking::Geometry);
+}
+
+#[test]
+fn marked_from_depth_with_four_samples() {
+    silent("suntem-vive", 4, Marking::Depth);
+}
