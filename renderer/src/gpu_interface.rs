@@ -261,10 +261,9 @@ const CONSTANTS: [(&str, u32); 8] = [
 ];
 
 /// Names of what shader variants choose among; the value is the position.
-const VARIANT_NAMES: [&[&str]; 4] = [
+const VARIANT_NAMES: [&[&str]; 3] = [
     &["SPACE_PERSPECTIVE", "SPACE_ORTHOGRAPHIC"],
     &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS"],
-    &["SURFACE_OPAQUE", "SURFACE_MASKED", "SURFACE_TRANSPARENT"],
     &["LOOKUP_ALL_LIGHTS", "LOOKUP_CLUSTERED"],
 ];
 

@@ -256,15 +256,8 @@ impl PipelineStore {
 fn graphics_defines(variant: &Variant, textured: bool, output: Output) -> Defines {
     let defines = variant.defines().with("VARYINGS", varyings(textured, output));
     match output {
-        Output::Depth => defines,
-        Output::Marks(kind) | Output::Shades(kind) => {
-            let name = match kind {
-                SurfaceKind::Opaque => "SURFACE_OPAQUE",
-                SurfaceKind::Masked => "SURFACE_MASKED",
-                SurfaceKind::Transparent => "SURFACE_TRANSPARENT",
-            };
-            defines.with("SURFACE", name)
-        }
+        Output::Depth | Output::Marks(_) => defines,
+        Output::Shades(kind) => defines.with("TRANSPARENT", u32::from(kind == SurfaceKind::Transparent)),
     }
 }
 
@@ -272,7 +265,7 @@ fn graphics_defines(variant: &Variant, textured: bool, output: Output) -> Define
 fn varyings(textured: bool, output: Output) -> u32 {
     match output {
         Output::Depth => u32::from(textured),
-        Output::Marks(kind) => u32::from(kind == SurfaceKind::Masked),
+        Output::Marks(_) => 0,
         Output::Shades(_) => 2,
     }
 }

@@ -10,7 +10,8 @@
 #include "lib/cluster_space.glsl"
 #include "lib/shade_point.glsl"
 
-// Depth is laid down by the prepass, and the counters must not see hidden fragments.
+// Depth is laid down by the prepass, and the counters must not see hidden fragments. What passes the test for equal
+// depth has passed the alpha test there; a second alpha test could decide otherwise in the last bit and leave a hole.
 layout(early_fragment_tests) in;
 
 layout(location = 0) in vec4 uv;
@@ -55,10 +56,6 @@ void main()
     ViewData view = views[push.view];
     MaterialData material = materials[material_index];
     vec4 base = base_color(material, uv, color);
-#if SURFACE == SURFACE_MASKED
-    if (base.a < material.alpha_cutoff)
-        discard;
-#endif
     LightCursor cursor;
     if (!find_lights(view, fragment_pixel(), gl_FragCoord.z, cursor)) {
         count(COUNTER_FRAGMENTS_SHADED, 1u);
@@ -71,5 +68,5 @@ void main()
     radiance += material.emissive * texture(emissive_texture, texture_uv(material, 4u, uv)).rgb;
     radiance += shade_lights(surface_at(material, view, base.rgb), cursor);
     // Half floats end at 65504; a light grazed at R0 may exceed that.
-    out_color = vec4(min(radiance, vec3(65504.0)), SURFACE == SURFACE_TRANSPARENT ? base.a : 1.0);
+    out_color = vec4(min(radiance, vec3(65504.0)), TRANSPARENT != 0 ? base.a : 1.0);
 }

@@ -5,11 +5,18 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// A replay small enough for a test.
+/// A replay small enough for a test, under rain.
 fn small(out: &Path) -> Command {
+    let mut command = small_unlit(out);
+    command.args(["--lights", "200"]);
+    command
+}
+
+/// The same before it is said where light comes from.
+fn small_unlit(out: &Path) -> Command {
     let mut command = manylight();
     command.args(["replay", "--quiet", "--resolution", "64x40", "--frames", "300..381/80", "--runs", "1"]);
-    command.args(["--method", "indi-persp-64", "--method", "encl-ortho-4", "--lights", "200"]);
+    command.args(["--method", "indi-persp-64", "--method", "encl-ortho-4"]);
     command.arg("--out").arg(out);
     command
 }
@@ -107,14 +114,14 @@ fn a_frame_is_the_same_alone_and_in_a_replay() {
 fn small_buffers_grow_and_give_the_same_counters() {
     let [roomy, tight] = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
     succeed(&mut small(roomy.path()));
-    succeed(small(tight.path()).args(["--visible-cluster-capacity", "3", "--light-index-capacity", "5"]));
+    succeed(small(tight.path()).args(["--visible-cluster-capacity", "1", "--light-index-capacity", "5"]));
     let rows = |out: &Path| counters(&out.join("indi-persp-64/clusterings.csv"));
     assert_eq!(rows(roomy.path()), rows(tight.path()));
     let manifest: serde_json::Value =
         serde_json::from_str(&read(tight.path().join("indi-persp-64/run.json"))).unwrap();
     let growth = manifest["growth"].as_array().unwrap();
     assert!(
-        growth.iter().any(|event| event["buffer"] == "visible_clusters" && event["from"] == 3),
+        growth.iter().any(|event| event["buffer"] == "visible_clusters" && event["from"] == 1),
         "{growth:?}"
     );
     assert!(growth.iter().any(|event| event["buffer"] == "light_indices"), "{growth:?}");
@@ -159,7 +166,7 @@ fn what_cannot_be_rendered_is_refused_in_one_line() {
         (&["--scene-lights"], "light"),
     ];
     for (flags, named) in cases {
-        let message = refused(small(&target).args(flags));
+        let message = refused(small_unlit(&target).args(flags));
         assert!(message.contains(named), "{flags:?}: {message}");
         assert!(!target.join("indi-persp-64").exists(), "{flags:?} left output behind");
     }
@@ -169,7 +176,7 @@ fn what_cannot_be_rendered_is_refused_in_one_line() {
 fn more_clusters_or_lights_than_the_device_holds_are_refused() {
     let out = tempfile::tempdir().unwrap();
     for flags in [["--method", "indi-ortho-0.05"], ["--lights", "4000000000"]] {
-        let mut command = small(out.path());
+        let mut command = small_unlit(out.path());
         command.args(flags);
         refused(&mut command);
     }
@@ -216,7 +223,7 @@ fn copy_tree(from: &Path, to: &Path) {
 fn an_interruption_keeps_complete_runs_and_says_so() {
     let out = tempfile::tempdir().unwrap();
     let mut command = manylight();
-    command.args(["replay", "--resolution", "64x40", "--frames", "..", "--runs", "1", "--lights", "200"]);
+    command.args(["replay", "--resolution", "64x40", "--frames", "0..80", "--runs", "1", "--lights", "200"]);
     command.args(["--method", "indi-ortho-8", "--method", "encl-ortho-8", "--out"]).arg(out.path());
     let mut child = command.stderr(std::process::Stdio::piped()).spawn().unwrap();
     let first = out.path().join("indi-ortho-8/run.json");
@@ -241,7 +248,7 @@ fn an_interruption_keeps_complete_runs_and_says_so() {
 fn devices_and_scenes_are_described() {
     let devices = succeed(manylight().args(["devices", "--json"]));
     let devices: serde_json::Value = serde_json::from_slice(&devices.stdout).unwrap();
-    assert!(!devices["devices"].as_array().unwrap().is_empty(), "{devices}");
+    assert!(!devices.as_array().unwrap().is_empty(), "{devices}");
     let scene = succeed(manylight().args(["scene", "street", "--json"]));
     let scene: serde_json::Value = serde_json::from_slice(&scene.stdout).unwrap();
     let triangles = scene["triangles"].as_u64().unwrap();

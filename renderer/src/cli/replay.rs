@@ -13,6 +13,7 @@ use std::path::PathBuf;
 
 /// Arguments of `replay`: a configuration file, and every field of it as a flag.
 #[derive(Debug, clap::Args)]
+#[command(args_override_self = true)]
 pub struct Args {
     /// JSON configuration over the built-in defaults; flags go over it.
     #[arg(long, value_name = "FILE.json")]

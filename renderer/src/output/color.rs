@@ -5,10 +5,7 @@ use std::f64::consts::TAU;
 /// What radiance is multiplied with before the curve.
 const EXPOSURE: f32 = 1.0;
 
-/// Pixels of which there is nothing to show.
-pub(super) const NOTHING: [u8; 3] = [255, 0, 255];
-
-/// Behind the clusters.
+/// Where nothing was hit.
 pub(super) const BACKGROUND: [u8; 3] = [24, 24, 24];
 
 /// Linear HDR colour to display: a fixed exposure, a filmic curve per channel, the sRGB transfer function.

@@ -1,7 +1,7 @@
 //! PNG previews of one frame, all views side by side.
 
 use super::atomic::write_whole;
-use super::color::{BACKGROUND, NOTHING, cluster_color, cubehelix, tone_map};
+use super::color::{BACKGROUND, cluster_color, cubehelix, tone_map};
 use crate::Result;
 use crate::measure::ViewPixels;
 use image::{ImageFormat, Rgb, RgbImage};
@@ -43,13 +43,16 @@ pub fn image_preview(views: &[ViewPixels]) -> RgbImage {
 }
 
 /// Lights per cluster as colour (cubehelix): black for none, white for `most_lights`, or for the most in these views
-/// where it is `None`. Magenta where there is no cluster.
+/// where it is `None`. Dark grey where nothing was hit.
 pub fn light_preview(views: &[ViewPixels], most_lights: Option<u32>) -> RgbImage {
     let in_frame = || views.iter().flat_map(|view| &view.light_count).copied().max().unwrap_or(0);
     let scale = f64::from(most_lights.unwrap_or_else(in_frame).max(1));
-    side_by_side(views, |view, pixel| match view.cluster_index[pixel] {
-        u32::MAX => NOTHING,
-        _ => cubehelix(f64::from(view.light_count[pixel]) / scale),
+    side_by_side(views, |view, pixel| {
+        if view.depth[pixel].is_infinite() {
+            BACKGROUND
+        } else {
+            cubehelix(f64::from(view.light_count[pixel]) / scale)
+        }
     })
 }
 
@@ -88,7 +91,7 @@ mod tests {
         pixels.light_count = vec![0, 0, 50, 100];
         let image = light_preview(&[pixels.clone()], None);
         let colors: Vec<[u8; 3]> = image.pixels().map(|pixel| pixel.0).collect();
-        assert_eq!(colors, [[255, 0, 255], [0, 0, 0], [160, 121, 73], [255, 255, 255]]);
+        assert_eq!(colors, [[24, 24, 24], [0, 0, 0], [160, 121, 73], [255, 255, 255]]);
         let image = light_preview(&[pixels], Some(200));
         assert_eq!(image.get_pixel(3, 0).0, [160, 121, 73]);
     }

@@ -122,6 +122,22 @@ struct History {
     read_stages: vk::PipelineStageFlags2,
 }
 
+impl History {
+    /// Starts anew with a write, or with the change of layout that a read asks for, which is a write that its own
+    /// barrier has made visible to that read.
+    fn overwrite(&mut self, usage: Use) {
+        use vk::{AccessFlags2 as A, PipelineStageFlags2 as S};
+        self.write_stage = usage.stage();
+        self.read_stages = S::NONE;
+        self.layout = usage.layout();
+        (self.write_access, self.visible_stages, self.visible_access) = if usage.writes() {
+            (usage.access(), S::NONE, A::NONE)
+        } else {
+            (A::NONE, usage.stage(), usage.access())
+        };
+    }
+}
+
 /// Derives the barriers of one frame. Keeps its memory from frame to frame.
 #[derive(Debug, Default)]
 pub(super) struct Tracker {
@@ -165,11 +181,7 @@ impl Tracker {
         let old_layout = history.layout;
         let (src_stage, src_access) = if usage.writes() || relayout {
             let src = (history.write_stage | history.read_stages, history.write_access);
-            history.write_stage = stage;
-            history.write_access = if usage.writes() { mask } else { vk::AccessFlags2::NONE };
-            (history.visible_stages, history.visible_access) = (stage, mask);
-            history.read_stages = vk::PipelineStageFlags2::NONE;
-            history.layout = usage.layout();
+            history.overwrite(usage);
             src
         } else {
             let seen = history.visible_stages.contains(stage) && history.visible_access.contains(mask);

@@ -74,8 +74,7 @@ fn from_geometry(
     draws::begin_rendering(r, frame, None, &draws::depth_attachment(frame, view, false));
     for &kind in kinds {
         let pipeline = &frame.pipelines.clustered().mark_geometry[kind as usize];
-        let textured = kind == SurfaceKind::Masked;
-        draws::draw(r, frame, view, pipeline, frame.draw_lists[view].runs(kind), textured);
+        draws::draw(r, frame, view, pipeline, frame.draw_lists[view].runs(kind), false);
     }
     draws::end_rendering(r);
 }

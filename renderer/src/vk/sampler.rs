@@ -28,6 +28,7 @@ impl SamplerCache {
     }
 
     /// The sampler with the filter and wrap modes of `key`: nearest texel and nearest mip, or trilinear and
+    /// on GPUs
     /// anisotropic up to the lesser of 8 and the device's limit.
     pub fn get(&self, key: scene::Sampler) -> vk::Sampler {
         self.samplers[index(key)]
@@ -67,7 +68,7 @@ fn make(context: &Context, key: scene::Sampler) -> Result<vk::Sampler> {
         true => (vk::Filter::NEAREST, vk::SamplerMipmapMode::NEAREST),
         false => (vk::Filter::LINEAR, vk::SamplerMipmapMode::LINEAR),
     };
-    let anisotropy = context.limits.max_sampler_anisotropy.min(ANISOTROPY);
+    let anisotropy = max_anisotropy(context);
     let info = vk::SamplerCreateInfo::default()
         .mag_filter(filter)
         .min_filter(filter)
@@ -81,6 +82,12 @@ fn make(context: &Context, key: scene::Sampler) -> Result<vk::Sampler> {
         unsafe { context.device.create_sampler(&info, None) }.map_err(|e| vk_error("making a sampler", e))?;
     context.name(sampler, &format!("sampler {:?}", key));
     Ok(sampler)
+}
+
+/// Software rasterisers filter without anisotropy: llvmpipe walks every texel under a pixel's ellipse, which at grazing
+/// angles is millions, and seems to hang.
+fn max_anisotropy(context: &Context) -> f32 {
+    if context.info.kind == "cpu" { 0.0 } else { context.limits.max_sampler_anisotropy.min(ANISOTROPY) }
 }
 
 #[cfg(test)]
