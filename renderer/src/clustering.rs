@@ -226,9 +226,8 @@ impl Clustering {
         let grids = [grid()?, grid()?];
         let kind = (vk::DescriptorType::STORAGE_BUFFER, BUFFERS.len() as u32);
         let sets = DescriptorSets::new(context, layouts.buffers, kind, SLOTS)?;
-        for slot in 0..SLOTS {
-            let handles = handles(&buffers, shared, slot, &grids[slot]);
-            write_buffer_set(context, sets.sets[slot], &handles);
+        for (slot, grid) in grids.iter().enumerate() {
+            write_buffer_set(context, sets.sets[slot], &handles(&buffers, shared, slot, grid));
         }
         Ok(Self {
             buffers,

@@ -38,6 +38,9 @@ pub struct Engine {
     pub growth: Vec<GrowthEvent>,
 }
 
+/// Commands recorded beside a frame's own.
+pub type Commands<'a> = dyn FnMut(&mut Recorder, &Frame) + 'a;
+
 /// Spare room when buffers grow, so that a camera on the move does not grow them each frame.
 const GROWTH_MARGIN: u32 = 5;
 
@@ -133,7 +136,7 @@ impl Engine {
         slot: usize,
         plan: &FramePlan,
         lights: &[PointLight],
-        extend: (&mut dyn FnMut(&mut Recorder, &Frame), &mut dyn FnMut(&mut Recorder, &Frame)),
+        extend: (&mut Commands, &mut Commands),
     ) -> Result<()> {
         self.write_host_data(session, slot, plan, lights);
         session.slots[slot].begin()?;
@@ -229,17 +232,18 @@ impl Engine {
         session.context.wait_idle()?;
         let states = self.states(session, slot);
         let capacities = &mut self.sizes.capacities;
-        let needs: [(_, &mut u32, fn(&ClusteringState) -> u32); 2] = [
-            ("visible_clusters", &mut capacities.visible_clusters, |state| state.visible_total),
-            ("light_indices", &mut capacities.light_indices, |state| state.index_total),
-        ];
-        for (buffer, capacity, needed) in needs {
-            let most = states.iter().map(needed).enumerate().max_by_key(|&(_, needed)| needed);
-            let Some((clustering, needed)) = most.filter(|&(_, needed)| needed > *capacity) else { continue };
-            let (from, to) = (*capacity, with_margin(needed));
-            *capacity = to;
-            let buffer = buffer.to_owned();
-            self.growth.push(GrowthEvent { frame, clustering: clustering as u32, buffer, from, to });
+        let visible = most_needed(&states, |state| state.visible_total);
+        let indices = most_needed(&states, |state| state.index_total);
+        for (buffer, capacity, (clustering, needed)) in [
+            ("visible_clusters", &mut capacities.visible_clusters, visible),
+            ("light_indices", &mut capacities.light_indices, indices),
+        ] {
+            if needed > *capacity {
+                let (from, to) = (*capacity, with_margin(needed));
+                *capacity = to;
+                let buffer = buffer.to_owned();
+                self.growth.push(GrowthEvent { frame, clustering, buffer, from, to });
+            }
         }
         self.make_clusterings(session)?;
         Ok(true)
@@ -254,6 +258,11 @@ impl Engine {
                 .iter()
                 .any(|s| s.visible_total > visible_clusters || s.index_total > light_indices)
     }
+}
+
+/// The clustering that needs most of something, and how much.
+fn most_needed(states: &[ClusteringState], need: impl Fn(&ClusteringState) -> u32) -> (u32, u32) {
+    (0..).zip(states.iter().map(need)).max_by_key(|&(_, needed)| needed).unwrap_or_default()
 }
 
 fn with_margin(needed: u32) -> u32 {

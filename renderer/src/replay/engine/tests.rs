@@ -122,7 +122,7 @@ fn random_bits(clusters: u64, sparsity: u32, seed: u64) -> Vec<u32> {
     let mut random = noise(seed);
     let mut bits = vec![0; clusters.div_ceil(32) as usize];
     for cluster in 0..clusters {
-        if random() % sparsity == 0 {
+        if random().is_multiple_of(sparsity) {
             bits[(cluster / 32) as usize] |= 1 << (cluster % 32);
         }
     }
