@@ -3,6 +3,7 @@
 use flate2::read::GzDecoder;
 use manylight::config::Config;
 use manylight::measure::{ClusterLists, FrameCounts, FrameTimes, ViewPixels};
+use manylight::methods::MethodSpec;
 use manylight::output::{PlannedRun, planned_runs};
 use manylight::replay::{Inputs, RunResult, RunSink, Watch, replay};
 use std::fs::File;
@@ -13,6 +14,25 @@ use std::sync::atomic::AtomicBool;
 
 /// The environment variable that rewrites golden files instead of comparing with them.
 pub const BLESS: &str = "MANYLIGHT_BLESS";
+
+/// Brute force over all lights, the truth, and the six methods of the default replay.
+pub const METHODS: [&str; 7] = [
+    "all-lights",
+    "indi-persp-64",
+    "encl-persp-64",
+    "indi-ortho-4",
+    "encl-ortho-4",
+    "indi-displ-64-32",
+    "encl-displ-64-32",
+];
+
+/// Methods by their names.
+///
+/// # Panics
+/// Where a name is none.
+pub fn methods(names: &[&str]) -> Vec<MethodSpec> {
+    names.iter().map(|name| name.parse().expect("a method's name")).collect()
+}
 
 /// Whether golden files are being rewritten.
 pub fn blessing() -> bool {

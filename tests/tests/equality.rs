@@ -4,22 +4,12 @@
 use manylight::config::{Config, ExrFrames, FrameRange, Marking};
 use manylight::measure::ViewPixels;
 use manylight::output::tone_map;
-use manylight_tests::{Run, run};
-
-const METHODS: [&str; 7] = [
-    "all-lights",
-    "indi-persp-64",
-    "encl-persp-64",
-    "indi-ortho-4",
-    "encl-ortho-4",
-    "indi-displ-64-32",
-    "encl-displ-64-32",
-];
+use manylight_tests::{METHODS, Run, methods, run};
 
 fn config(recording: &str, msaa: u32, marking: Marking) -> Config {
     Config {
         recording: recording.to_owned(),
-        methods: METHODS.map(|name| name.parse().unwrap()).to_vec(),
+        methods: methods(&METHODS),
         resolution: [80, 48],
         msaa,
         marking,

@@ -4,15 +4,15 @@
 
 use manylight::config::{Config, ExrFrames, FrameRange};
 use manylight::output::image_preview;
-use manylight_tests::{Run, blessing, data, run};
+use manylight_tests::{METHODS, Run, blessing, data, methods, run};
 use std::fmt::Write as _;
 use std::fs;
 
-fn golden(methods: &[&str], scene: &str, recording: &str, file: &str) {
+fn golden(names: &[&str], scene: &str, recording: &str, file: &str) {
     let runs = run(Config {
         scene: scene.to_owned(),
         recording: recording.to_owned(),
-        methods: methods.iter().map(|name| name.parse().unwrap()).collect(),
+        methods: methods(names),
         resolution: [96, 64],
         frames: FrameRange { first: 300, end: Some(581), step: 280 },
         runs: 0,
@@ -82,16 +82,7 @@ fn compare_counters(runs: &[Run], file: &str) {
 
 #[test]
 fn street() {
-    let methods = [
-        "all-lights",
-        "indi-persp-64",
-        "encl-persp-64",
-        "indi-ortho-4",
-        "encl-ortho-4",
-        "indi-displ-64-32",
-        "encl-displ-64-32",
-    ];
-    golden(&methods, "street", "bistro-vive", "street");
+    golden(&METHODS, "street", "bistro-vive", "street");
 }
 
 #[test]

@@ -2,21 +2,12 @@
 //! derive: timestamps of single stages, whose barriers would hide a missing one, are left out.
 
 use manylight::config::{Config, ExrFrames, FrameRange, Marking, Scopes};
-use manylight_tests::run;
+use manylight_tests::{METHODS, methods, run};
 
 fn silent(recording: &str, msaa: u32, marking: Marking) {
-    let names = [
-        "all-lights",
-        "indi-persp-64",
-        "encl-persp-64",
-        "indi-ortho-4",
-        "encl-ortho-4",
-        "indi-displ-64-32",
-        "encl-displ-64-32",
-    ];
     let runs = run(Config {
         recording: recording.to_owned(),
-        methods: names.map(|name| name.parse().unwrap()).to_vec(),
+        methods: methods(&METHODS),
         resolution: [48, 32],
         msaa,
         marking,
