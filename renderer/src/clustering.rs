@@ -59,7 +59,7 @@ impl ClusteringSizes {
     }
 
     /// Bytes of each buffer, in binding order of those that [`ClusteringBuffers`] makes.
-    fn bytes(&self) -> [(&'static str, u64); 14] {
+    fn bytes(&self) -> [(&'static str, u64); 13] {
         let counting = u64::from(self.counting);
         let visible = u64::from(self.capacities.visible_clusters);
         let blocks = self.words().max(self.list_segments()).div_ceil(u64::from(SCAN_BLOCK));
@@ -75,7 +75,6 @@ impl ClusteringSizes {
             ("state", size_of::<ClusteringState>() as u64),
             ("dispatches", 2 * size_of::<DispatchSize>() as u64),
             ("counters", 8 * COUNTER_COUNT as u64),
-            ("fragment_counts", 4 * self.clusters * counting),
             ("visible_fragments", 4 * visible * counting),
             ("lights_per_fragment", 4 * (u64::from(self.lights) + 1) * counting),
         ]
@@ -133,8 +132,6 @@ pub struct ClusteringBuffers {
     pub dispatches: Buffer,
     /// 64-bit counters.
     pub counters: Buffer,
-    /// Per cluster; counting alone.
-    pub fragment_counts: Buffer,
     /// Per visible cluster; counting alone.
     pub visible_fragments: Buffer,
     /// Histogram; counting alone.
@@ -164,7 +161,6 @@ impl ClusteringBuffers {
             state: make("state")?,
             dispatches: make("dispatches")?,
             counters: make("counters")?,
-            fragment_counts: make("fragment_counts")?,
             visible_fragments: make("visible_fragments")?,
             lights_per_fragment: make("lights_per_fragment")?,
             pixels: device_buffer(context, "pixels", pixels)?,
@@ -206,8 +202,6 @@ pub struct Clustering {
     pub views: Range<usize>,
     /// Words of visibility bits of this frame's grid.
     pub word_count: u32,
-    /// Whether the atemporal run's buffers are there.
-    pub counting: bool,
     _sets: DescriptorSets,
 }
 
@@ -229,15 +223,7 @@ impl Clustering {
         for (slot, grid) in grids.iter().enumerate() {
             write_buffer_set(context, sets.sets[slot], &handles(&buffers, shared, slot, grid));
         }
-        Ok(Self {
-            buffers,
-            grids,
-            sets: [sets.sets[0], sets.sets[1]],
-            views,
-            word_count: 0,
-            counting: sizes.counting,
-            _sets: sets,
-        })
+        Ok(Self { buffers, grids, sets: [sets.sets[0], sets.sets[1]], views, word_count: 0, _sets: sets })
     }
 }
 
@@ -263,7 +249,6 @@ fn handles(
         &b.state,
         &b.dispatches,
         &b.counters,
-        &b.fragment_counts,
         &b.visible_fragments,
         &b.lights_per_fragment,
         &b.pixels,

@@ -173,7 +173,6 @@ pub enum Binding {
     State,
     Dispatches,
     Counters,
-    FragmentCounts,
     VisibleFragments,
     LightsPerFragment,
     Pixels,
@@ -182,7 +181,7 @@ pub enum Binding {
 }
 
 /// Every buffer as (binding, access, GLSL member).
-pub const BUFFERS: [(Binding, &str, &str); 20] = [
+pub const BUFFERS: [(Binding, &str, &str); 19] = [
     (Binding::Views, "readonly", "ViewData views[]"),
     (Binding::Grid, "readonly", "GridData grid"),
     (Binding::Lights, "readonly", "LightData lights[]"),
@@ -197,7 +196,6 @@ pub const BUFFERS: [(Binding, &str, &str); 20] = [
     (Binding::State, "", "ClusteringState state"),
     (Binding::Dispatches, "", "DispatchSize dispatches[]"),
     (Binding::Counters, "", "uint counters[]"),
-    (Binding::FragmentCounts, "", "uint fragment_counts[]"),
     (Binding::VisibleFragments, "", "uint visible_fragments[]"),
     (Binding::LightsPerFragment, "", "uint lights_per_fragment[]"),
     (Binding::Pixels, "", "PixelData pixels[]"),

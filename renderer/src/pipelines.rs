@@ -80,12 +80,20 @@ pub struct ScanPipelines {
     pub apply: Arc<Pipeline>,
 }
 
+/// Visiting the cluster of every fragment.
+pub struct MarkPipelines {
+    /// From the depth buffer.
+    pub depth: Arc<Pipeline>,
+    /// From geometry, by [`SurfaceKind`].
+    pub geometry: [Arc<Pipeline>; 3],
+}
+
 /// What clustered methods run besides.
 pub struct ClusteredPipelines {
-    /// Marking from depth.
-    pub mark_depth: Arc<Pipeline>,
-    /// Marking from geometry, by [`SurfaceKind`].
-    pub mark_geometry: [Arc<Pipeline>; 3],
+    /// Marking the clusters of fragments.
+    pub mark: MarkPipelines,
+    /// Counting the fragments of visible clusters.
+    pub count_fragments: MarkPipelines,
     /// Prefix sum of the visibility words.
     pub compact: ScanPipelines,
     /// Lights into clustering space.
@@ -96,8 +104,6 @@ pub struct ClusteredPipelines {
     pub light_offsets: ScanPipelines,
     /// The lists.
     pub assign_lights: Arc<Pipeline>,
-    /// Fragment counts of visible clusters; counting variants alone use it.
-    pub gather_fragments: Arc<Pipeline>,
 }
 
 /// All pipelines of one variant.
@@ -133,8 +139,10 @@ pub struct PipelineStore {
 enum Output {
     /// Writes depth.
     Depth,
-    /// Tests depth for equality; writes buffers.
+    /// Tests depth; marks clusters.
     Marks(SurfaceKind),
+    /// Tests depth; counts fragments of clusters.
+    Counts(SurfaceKind),
     /// Tests depth; writes colour.
     Shades(SurfaceKind),
 }
@@ -164,14 +172,22 @@ impl PipelineStore {
         let defines = variant.defines();
         let brute = "assign/brute.comp";
         Ok(ClusteredPipelines {
-            mark_depth: self.compute("cluster/mark_depth.comp", &defines)?,
-            mark_geometry: self.per_kind(variant, "cluster/mark_geometry.frag", Output::Marks)?,
+            mark: self.mark(variant, false)?,
+            count_fragments: self.mark(variant, true)?,
             compact: self.scan(&defines, "SCAN_VISIBILITY")?,
             transform_lights: self.compute("assign/transform_lights.comp", &defines)?,
             count_lights: self.compute(brute, &defines.with("WRITE_LISTS", 0))?,
             light_offsets: self.scan(&defines, "SCAN_LIST_LENGTHS")?,
             assign_lights: self.compute(brute, &defines.with("WRITE_LISTS", 1))?,
-            gather_fragments: self.compute("measure/gather_fragments.comp", &defines)?,
+        })
+    }
+
+    fn mark(&mut self, variant: &Variant, count: bool) -> Result<MarkPipelines> {
+        let output = |kind| if count { Output::Counts(kind) } else { Output::Marks(kind) };
+        let defines = variant.defines().with("COUNT_FRAGMENTS", u32::from(count));
+        Ok(MarkPipelines {
+            depth: self.compute("cluster/mark_depth.comp", &defines)?,
+            geometry: self.per_kind(variant, "cluster/mark_geometry.frag", output)?,
         })
     }
 
@@ -256,7 +272,9 @@ impl PipelineStore {
 fn graphics_defines(variant: &Variant, textured: bool, output: Output) -> Defines {
     let defines = variant.defines().with("VARYINGS", varyings(textured, output));
     match output {
-        Output::Depth | Output::Marks(_) => defines,
+        Output::Depth => defines,
+        Output::Marks(_) => defines.with("COUNT_FRAGMENTS", 0),
+        Output::Counts(_) => defines.with("COUNT_FRAGMENTS", 1),
         Output::Shades(kind) => defines.with("TRANSPARENT", u32::from(kind == SurfaceKind::Transparent)),
     }
 }
@@ -265,7 +283,7 @@ fn graphics_defines(variant: &Variant, textured: bool, output: Output) -> Define
 fn varyings(textured: bool, output: Output) -> u32 {
     match output {
         Output::Depth => u32::from(textured),
-        Output::Marks(_) => 0,
+        Output::Marks(_) | Output::Counts(_) => 0,
         Output::Shades(_) => 2,
     }
 }
@@ -274,10 +292,10 @@ fn varyings(textured: bool, output: Output) -> u32 {
 fn depth_compare(output: Output) -> vk::CompareOp {
     match output {
         Output::Depth => vk::CompareOp::GREATER,
-        Output::Marks(SurfaceKind::Transparent) | Output::Shades(SurfaceKind::Transparent) => {
-            vk::CompareOp::GREATER_OR_EQUAL
-        }
-        Output::Marks(_) | Output::Shades(_) => vk::CompareOp::EQUAL,
+        Output::Marks(kind) | Output::Counts(kind) | Output::Shades(kind) => match kind {
+            SurfaceKind::Transparent => vk::CompareOp::GREATER_OR_EQUAL,
+            SurfaceKind::Opaque | SurfaceKind::Masked => vk::CompareOp::EQUAL,
+        },
     }
 }
 

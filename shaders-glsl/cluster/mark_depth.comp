@@ -1,4 +1,4 @@
-// Marks the cluster of every sample of the depth buffer (METHODS: visible clusters from the depth prepass).
+// Marks (or counts, see visit_cluster) the cluster of every sample of the depth buffer (Gelderen section 5.2).
 #version 460
 #include "lib/cluster_space.glsl"
 #include "lib/sample_positions.glsl"
@@ -15,6 +15,6 @@ void main()
     for (int s = 0; s < SAMPLES; ++s) {
         float depth = stored_depth(ivec2(pixel), s);
         if (depth > 0.0)
-            mark_cluster(cluster_of_sample(view, vec2(pixel) + sample_position(s), depth));
+            visit_cluster(cluster_of_sample(view, vec2(pixel) + sample_position(s), depth));
     }
 }

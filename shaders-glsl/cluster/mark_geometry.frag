@@ -1,4 +1,4 @@
-// Marks the cluster of every fragment that shading will see: transparent geometry always, all geometry with
+// Marks (or counts, see visit_cluster) the cluster of every fragment that shading will see: transparent geometry always, all geometry with
 // marking from geometry. The depth test alone decides, as in shading.
 #version 460
 #include "lib/cluster_space.glsl"
@@ -9,5 +9,5 @@ layout(early_fragment_tests) in;
 
 void main()
 {
-    mark_cluster(cluster_of_sample(views[push.view], fragment_pixel(), gl_FragCoord.z));
+    visit_cluster(cluster_of_sample(views[push.view], fragment_pixel(), gl_FragCoord.z));
 }

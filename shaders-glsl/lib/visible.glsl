@@ -11,9 +11,6 @@ void mark_cluster(uint cluster)
     uint bit = 1u << (cluster & 31u);
     if ((cluster_bits[cluster >> 5] & bit) == 0u)
         atomicOr(cluster_bits[cluster >> 5], bit);
-#if COUNTERS
-    atomicAdd(fragment_counts[cluster], 1u);
-#endif
 }
 
 // Index of a cluster among the visible ones, or NO_CLUSTER where it is not marked or did not fit.
@@ -23,4 +20,16 @@ uint visible_index(uint cluster)
     uint bit = 1u << (cluster & 31u);
     uint index = word_ranks[cluster >> 5] + bitCount(word & (bit - 1u));
     return (word & bit) != 0u && index < grid.visible_capacity ? index : NO_CLUSTER;
+}
+
+// What the marking shaders do with the cluster of each fragment: mark it, or, once all are ranked, count the fragment.
+void visit_cluster(uint cluster)
+{
+#if COUNT_FRAGMENTS
+    uint visible = visible_index(cluster);
+    if (visible != NO_CLUSTER)
+        atomicAdd(visible_fragments[visible], 1u);
+#else
+    mark_cluster(cluster);
+#endif
 }

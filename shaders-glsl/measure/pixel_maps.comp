@@ -28,7 +28,8 @@ void main()
         result.light_count = cursor.end - cursor.next;
 #if LOOKUP == LOOKUP_CLUSTERED
         result.cluster_index = cluster_of_sample(view, location, depth);
-        result.fragment_count = fragment_counts[result.cluster_index];
+        uint visible = visible_index(result.cluster_index);
+        result.fragment_count = visible == NO_CLUSTER ? 0u : visible_fragments[visible];
 #endif
     }
     pixels[pixel.y * view.resolution.x + pixel.x] = result;

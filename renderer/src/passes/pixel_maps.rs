@@ -32,7 +32,7 @@ fn compute(r: &mut Recorder, frame: &Frame, view: usize) {
         Access::buffer(b.cluster_bits.handle, Use::ComputeRead),
         Access::buffer(b.word_ranks.handle, Use::ComputeRead),
         Access::buffer(b.list_offsets.handle, Use::ComputeRead),
-        Access::buffer(b.fragment_counts.handle, Use::ComputeRead),
+        Access::buffer(b.visible_fragments.handle, Use::ComputeRead),
     ]);
     frame.bind(r, vk::PipelineBindPoint::COMPUTE, &frame.pipelines.pixel_maps, view);
     frame.bind_set(r, vk::PipelineBindPoint::COMPUTE, SET_DEPTH, target.depth_set);

@@ -1,12 +1,10 @@
 //! What goes back to the host: each frame's few words of state, and in atemporal runs everything counted.
 
 use crate::frame::Frame;
-use crate::gpu_interface::{COUNTER_COUNT, ClusteringState, DISPATCH_ASSIGN};
+use crate::gpu_interface::{COUNTER_COUNT, ClusteringState};
 use crate::pass::{Access, Recorder, Use};
 use crate::vk::Buffer;
 use ash::vk;
-
-use super::scan::dispatch_indirect;
 
 /// Bytes of one clustering's state.
 pub const STATE_BYTES: u64 = size_of::<ClusteringState>() as u64;
@@ -33,21 +31,6 @@ pub fn clear_counters(r: &mut Recorder, frame: &Frame) {
             unsafe { r.context.device.cmd_fill_buffer(r.commands, buffer.handle, 0, vk::WHOLE_SIZE, 0) };
         }
     }
-}
-
-/// Collects the fragment counts of the visible clusters.
-pub fn gather_fragments(r: &mut Recorder, frame: &Frame, clustering: usize) {
-    let b = &frame.clusterings[clustering].buffers;
-    r.access(&[
-        Access::buffer(b.state.handle, Use::ComputeRead),
-        Access::buffer(b.visible_clusters.handle, Use::ComputeRead),
-        Access::buffer(b.fragment_counts.handle, Use::ComputeRead),
-        Access::buffer(b.visible_fragments.handle, Use::ComputeWrite),
-        Access::buffer(b.dispatches.handle, Use::Indirect),
-    ]);
-    let pipeline = &frame.pipelines.clustered().gather_fragments;
-    frame.bind_clustering(r, vk::PipelineBindPoint::COMPUTE, pipeline, clustering);
-    dispatch_indirect(r, b.dispatches.handle, DISPATCH_ASSIGN);
 }
 
 /// Sizes of what [`copy_counted`] copies of one clustering, in its order; 32-bit words.

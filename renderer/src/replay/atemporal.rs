@@ -12,7 +12,7 @@ use crate::lights::LightSource;
 use crate::measure::{FrameCounts, ViewPixels};
 use crate::methods::MethodSpec;
 use crate::pass::Recorder;
-use crate::passes::{pixel_maps, readback};
+use crate::passes::{mark, pixel_maps, readback};
 use crate::views::View;
 use crate::vk::{Buffer, Memory};
 use ash::vk;
@@ -34,12 +34,15 @@ pub fn count_frame(
     let images = image_buffers(session, resolution, view_names.map_or(0, <[String]>::len))?;
     let lights = lights.at_frame(plan.frame);
     loop {
-        let mut copy_images = |r: &mut Recorder, frame: &Frame| {
+        let mut look_closer = |r: &mut Recorder, frame: &Frame| {
+            if frame.clustered {
+                (0..frame.clusterings.len()).for_each(|c| mark::count_fragments(r, frame, c));
+            }
             for (view, buffer) in images.iter().enumerate() {
                 pixel_maps::record(r, frame, view, buffer);
             }
         };
-        engine.submit(session, SLOT, plan, lights, (&mut readback::clear_counters, &mut copy_images))?;
+        engine.submit(session, SLOT, plan, lights, (&mut readback::clear_counters, &mut look_closer))?;
         session.slots[SLOT].wait()?;
         if !engine.grow_if_needed(session, SLOT, plan.frame)? {
             break;

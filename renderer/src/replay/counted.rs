@@ -36,9 +36,6 @@ impl Counted {
         let usage = vk::BufferUsageFlags::TRANSFER_DST;
         let target = Buffer::new(&session.context, "counter readback", size, usage, Memory::Readback)?;
         engine.follow_up(session, slot, |r, frame| {
-            if frame.clustered {
-                readback::gather_fragments(r, frame, clustering);
-            }
             readback::copy_counted(r, frame, clustering, &words, &target);
         })?;
         let mut offset = 0;
