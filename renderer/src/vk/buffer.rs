@@ -115,11 +115,19 @@ impl Buffer {
     /// When the range is outside the buffer or the buffer is [`Memory::Device`]: faults of the program.
     pub fn read<T: Pod>(&self, offset: u64, count: usize) -> Vec<T> {
         let mut values = vec![T::zeroed(); count];
-        let bytes: &mut [u8] = bytemuck::cast_slice_mut(&mut values);
+        self.read_into(offset, &mut values);
+        values
+    }
+
+    /// [`Self::read`] into memory that is already there.
+    ///
+    /// # Panics
+    /// As [`Self::read`].
+    pub fn read_into<T: Pod>(&self, offset: u64, values: &mut [T]) {
+        let bytes: &mut [u8] = bytemuck::cast_slice_mut(values);
         let source = self.mapped(offset, bytes.len());
         // SAFETY: as in `write`.
         unsafe { std::ptr::copy_nonoverlapping(source, bytes.as_mut_ptr(), bytes.len()) };
-        values
     }
 
     fn mapped(&self, offset: u64, length: usize) -> *mut u8 {
