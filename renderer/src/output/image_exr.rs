@@ -11,8 +11,9 @@
 //! | cluster_index | uint | linear cluster index; 4294967295 where nothing was hit |
 //!
 //! and the standard attributes `worldToCamera` and `worldToNDC`. As OpenEXR has it, points are row vectors that
-//! are multiplied with the matrix from the left, the translation is in the last row, the camera looks along -Z, and
-//! NDC is (0, 0) in the upper left and (1, 1) in the lower right corner of the image. NDC z is the device depth.
+//! are multiplied with the matrix from the left, the translation is in the last row, camera space is left-handed (+X
+//! right, +Y up, the camera looks along +Z), and NDC is (0, 0) in the upper left and (1, 1) in the lower right corner
+//! of the image. NDC z is the device depth.
 
 use super::atomic::write_whole;
 use crate::measure::ViewPixels;
@@ -86,7 +87,7 @@ fn layer(view: &ViewPixels, stereo: bool) -> Layer<AnyChannels<FlatSamples>> {
     let mut attributes = LayerAttributes::named(view.name.as_str());
     attributes.view_name = stereo.then(|| Text::from(view.name.as_str()));
     attributes.software_name = Some(Text::from(concat!("manylight ", env!("CARGO_PKG_VERSION"))));
-    attributes.world_to_camera = Some(row_vector_matrix(view_from_world));
+    attributes.world_to_camera = Some(row_vector_matrix(camera_from_view() * view_from_world));
     attributes.world_to_normalized_device =
         Some(row_vector_matrix(ndc_from_clip() * view.clip_from_view * view_from_world));
     Layer::new(
@@ -97,6 +98,11 @@ fn layer(view: &ViewPixels, stereo: bool) -> Layer<AnyChannels<FlatSamples>> {
             channels.into_iter().map(|(name, samples)| AnyChannel::new(name, samples)).collect(),
         ),
     )
+}
+
+/// View space (the camera looks along -Z) to OpenEXR's left-handed camera space.
+fn camera_from_view() -> DMat4 {
+    DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0))
 }
 
 /// Clip space (-1..1, +Y up) to OpenEXR's NDC (0..1, +Y down), both homogeneous.
@@ -168,7 +174,8 @@ mod tests {
         assert_eq!(attributes.layer_name, Some(Text::from("mono")));
         assert_eq!(attributes.view_name, None);
         let camera = attributes.world_to_camera.unwrap();
-        assert_eq!(camera[12..], [-1.0, -2.0, -3.0, 1.0]);
+        assert_eq!(camera[12..], [-1.0, -2.0, 3.0, 1.0]);
+        assert_eq!(camera[8..11], [0.0, 0.0, -1.0], "what lies ahead (world -Z) has a positive camera z");
         let ndc = attributes.world_to_normalized_device.unwrap();
         // Ten metres ahead, five to the right and ten up: three quarters across, at the upper edge.
         let point = [1.0 + 5.0, 2.0 + 10.0, 3.0 - 10.0, 1.0];
