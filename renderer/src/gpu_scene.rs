@@ -4,7 +4,7 @@ use crate::Result;
 use crate::draw_list::{Batch, Batches};
 use crate::gpu_interface::{InstanceData, MaterialData};
 use crate::layouts::{DescriptorSets, Layouts, MATERIAL_TEXTURES};
-use crate::scene::{Image, Material, Sampler, Scene, TextureRef, Wrap};
+use crate::scene::{Image, Material, Sampler, Scene, TextureRef, TextureSlot, Wrap};
 use crate::vk::{self as gpu, Buffer, Context, SamplerCache};
 use ash::vk;
 use std::sync::Arc;
@@ -85,12 +85,17 @@ fn material_data(material: &Material) -> MaterialData {
         emissive: material.emissive,
         metallic: material.metallic,
         roughness: material.roughness,
-        normal_scale: material.normal_scale,
+        normal_scale: normal_scale(material),
         occlusion_strength: material.occlusion_strength,
         alpha_cutoff: material.alpha_cutoff,
         uv_slots,
         uv_rows,
     }
+}
+
+/// No normal map leaves the normal as it is: 8 bits have no exact zero for a neutral texture to hold.
+fn normal_scale(material: &Material) -> f32 {
+    if material.textures[TextureSlot::Normal as usize].is_some() { material.normal_scale } else { 0.0 }
 }
 
 fn instance_data(scene: &Scene, index: usize) -> InstanceData {
