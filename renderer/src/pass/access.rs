@@ -1,7 +1,6 @@
 //! What a pass reads and writes, and the barriers that follow from it.
 
 use ash::vk;
-use ash::vk::Handle;
 
 /// How a pass uses a resource.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -110,7 +109,7 @@ impl Access {
 /// What has happened to a resource since the frame began.
 #[derive(Debug, Clone, Copy)]
 struct History {
-    resource: u64,
+    resource: Resource,
     layout: vk::ImageLayout,
     /// The last write, which later accesses must wait for.
     write_stage: vk::PipelineStageFlags2,
@@ -193,7 +192,7 @@ impl Tracker {
             history.visible_access |= mask;
             (history.write_stage, history.write_access)
         };
-        if src_stage.is_empty() && !relayout {
+        if src_stage.is_empty() {
             return;
         }
         match access.resource {
@@ -230,20 +229,22 @@ impl Tracker {
     }
 
     fn history(&mut self, resource: Resource) -> &mut History {
-        let key = match resource {
-            Resource::Buffer(buffer) => buffer.as_raw(),
-            Resource::Image(image, _) => image.as_raw(),
+        // An image's first change of layout must wait for the frame before, whose work the full barrier has ended:
+        // a barrier that waits for no stage would not be ordered after that one.
+        let read_stages = match resource {
+            Resource::Buffer(_) => vk::PipelineStageFlags2::NONE,
+            Resource::Image(..) => vk::PipelineStageFlags2::ALL_COMMANDS,
         };
-        let found = self.histories.iter().position(|history| history.resource == key);
+        let found = self.histories.iter().position(|history| history.resource == resource);
         let index = found.unwrap_or_else(|| {
             self.histories.push(History {
-                resource: key,
+                resource,
                 layout: vk::ImageLayout::UNDEFINED,
                 write_stage: vk::PipelineStageFlags2::NONE,
                 write_access: vk::AccessFlags2::NONE,
                 visible_stages: vk::PipelineStageFlags2::NONE,
                 visible_access: vk::AccessFlags2::NONE,
-                read_stages: vk::PipelineStageFlags2::NONE,
+                read_stages,
             });
             self.histories.len() - 1
         });
