@@ -5,12 +5,9 @@
 
 layout(constant_id = 0) const uint ATTENUATION = ATTENUATION_PHY_RED_2;
 
-// a(d) for R0 <= d < R1; beyond R1 there is no light.
-float attenuation(LightData light, float distance)
+// a(d) as the table has it, for R0 <= d <= R1.
+float table_attenuation(LightData light, float d)
 {
-    float d = max(distance, light.r0);
-    if (d >= light.r1)
-        return 0.0;
     float inverse_square = light.intensity / (d * d);
     float x = d / light.r1;
     switch (ATTENUATION) {
@@ -24,4 +21,10 @@ float attenuation(LightData light, float distance)
     case ATTENUATION_LIN: return light.intensity * (1.0 - x);
     default: return 4.0 * light.intensity / (light.r1 * light.r1);
     }
+}
+
+// Beyond R1 there is no light, nor is there less than none where an R1 of the light's own reaches past sqrt(I/I0).
+float attenuation(LightData light, float distance)
+{
+    return distance < light.r1 ? max(table_attenuation(light, min(max(distance, light.r0), light.r1)), 0.0) : 0.0;
 }

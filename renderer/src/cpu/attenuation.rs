@@ -4,7 +4,8 @@ use crate::lights::{Attenuation, PointLight};
 
 /// The attenuation a(d) of `light` at `distance` metres: its tint is multiplied by it.
 ///
-/// Nearer than R0 it is that at R0; at R1 and beyond it is 0.
+/// Nearer than R0 it is that at R0; at R1 and beyond it is 0, and it is nowhere below 0 where an R1 of the light's
+/// own reaches past sqrt(I/I0).
 pub fn attenuation(function: Attenuation, light: &PointLight, distance: f64) -> f64 {
     let [i, i0, r0, r1] = [light.intensity, light.cutoff, light.r0, light.r1].map(f64::from);
     if distance >= r1 {
@@ -13,7 +14,7 @@ pub fn attenuation(function: Attenuation, light: &PointLight, distance: f64) -> 
     let d = distance.max(r0).min(r1);
     let physical = i / (d * d);
     let part = d / r1;
-    match function {
+    let value = match function {
         Attenuation::Phy => physical,
         Attenuation::Red => physical - i0,
         Attenuation::Smo => physical + 2.0 * i0 * part - 3.0 * i0,
@@ -23,7 +24,8 @@ pub fn attenuation(function: Attenuation, light: &PointLight, distance: f64) -> 
         Attenuation::PhySmo2 => physical + 2.0 * i0 * part.powi(3) - 3.0 * i0 * part.powi(2),
         Attenuation::Lin => i * (r1 - d) / r1,
         Attenuation::Stp => 4.0 * i / (r1 * r1),
-    }
+    };
+    value.max(0.0)
 }
 
 #[cfg(test)]
@@ -59,6 +61,17 @@ mod tests {
         }
         let slope = attenuation(Smo, &LIGHT, 4.0 - 1e-4) / 1e-4;
         assert!(slope.abs() < 1e-3, "smo ends without a kink");
+    }
+
+    #[test]
+    fn a_reach_beyond_the_cutoff_takes_no_light_away() {
+        let wide = PointLight { r1: 8.0, ..LIGHT };
+        for function in ALL {
+            for distance in [0.5, 3.9, 4.1, 6.0, 7.9] {
+                assert!(attenuation(function, &wide, distance) >= 0.0, "{function:?} at {distance} m");
+            }
+        }
+        assert_eq!(attenuation(Red, &wide, 6.0), 0.0);
     }
 
     #[test]
