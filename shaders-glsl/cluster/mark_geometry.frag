@@ -9,5 +9,7 @@ layout(early_fragment_tests) in;
 
 void main()
 {
+    if (is_background())
+        return;
     visit_cluster(cluster_of_sample(views[push.view], fragment_pixel(), gl_FragCoord.z));
 }

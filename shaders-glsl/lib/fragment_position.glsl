@@ -12,3 +12,16 @@ vec2 fragment_pixel()
     return floor(gl_FragCoord.xy) + 0.5;
 #endif
 }
+
+// Whether the fragment lies on the far plane, at the depth that the buffer is cleared to: a test for equal depth
+// passes there, yet marking from depth takes it for background. Such fragments are background everywhere. A fragment
+// of several samples has a depth of its own only at its centre, which none of them need have; its marks come from
+// geometry, far plane included.
+bool is_background()
+{
+#if SAMPLES == 1 || PER_SAMPLE
+    return gl_FragCoord.z <= 0.0;
+#else
+    return false;
+#endif
+}

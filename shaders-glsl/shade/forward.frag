@@ -53,6 +53,8 @@ Surface surface_at(MaterialData material, ViewData view, vec3 base)
 
 void main()
 {
+    if (is_background())
+        discard;
     ViewData view = views[push.view];
     MaterialData material = materials[material_index];
     vec4 base = base_color(material, uv, color);
