@@ -219,7 +219,7 @@ impl Clustering {
         let grid = || Buffer::new(context, "grid", size_of::<GridData>() as u64, usage, Memory::Upload);
         let grids = [grid()?, grid()?];
         let kind = (vk::DescriptorType::STORAGE_BUFFER, BUFFERS.len() as u32);
-        let sets = DescriptorSets::new(context, layouts.buffers, kind, SLOTS)?;
+        let sets = DescriptorSets::new(context, "clustering", layouts.buffers, kind, SLOTS)?;
         for (slot, grid) in grids.iter().enumerate() {
             write_buffer_set(context, sets.sets[slot], &handles(&buffers, shared, slot, grid));
         }

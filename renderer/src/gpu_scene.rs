@@ -40,6 +40,7 @@ impl GpuScene {
         textures.extend(gpu::upload_textures(context, &neutral_images())?);
         let sets = DescriptorSets::new(
             context,
+            "material",
             layouts.material,
             (vk::DescriptorType::COMBINED_IMAGE_SAMPLER, MATERIAL_TEXTURES),
             scene.materials.len(),

@@ -94,9 +94,10 @@ pub struct DescriptorSets {
 }
 
 impl DescriptorSets {
-    /// `count` sets of `layout`, each with `descriptors` descriptors of `kind`.
+    /// `count` sets of `layout`, each with `descriptors` descriptors of `kind`, named `name` and their position.
     pub fn new(
         context: &Arc<Context>,
+        name: &str,
         layout: vk::DescriptorSetLayout,
         (kind, descriptors): (vk::DescriptorType, u32),
         count: usize,
@@ -106,10 +107,14 @@ impl DescriptorSets {
         let sizes = [vk::DescriptorPoolSize { ty: kind, descriptor_count: descriptors * count as u32 }];
         let info = vk::DescriptorPoolCreateInfo::default().max_sets(count as u32).pool_sizes(&sizes);
         let pool = unsafe { context.device.create_descriptor_pool(&info, None) }.map_err(failed)?;
+        context.name(pool, name);
         let mut this = Self { context: context.clone(), pool, sets: vec![] };
         let layouts = vec![layout; count];
         let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&layouts);
         this.sets = unsafe { context.device.allocate_descriptor_sets(&info) }.map_err(failed)?;
+        for (index, &set) in this.sets.iter().enumerate() {
+            context.name(set, &format!("{name} {index}"));
+        }
         Ok(this)
     }
 }

@@ -44,7 +44,9 @@ impl Slot {
         let info = vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
         let commands = unsafe { device.allocate_command_buffers(&info) }.map_err(failed)?[0];
         let fence = unsafe { device.create_fence(&vk::FenceCreateInfo::default(), None) }.map_err(failed)?;
+        context.name(pool, "frame");
         context.name(commands, "frame");
+        context.name(fence, "frame");
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
         Ok(Self {
             context: context.clone(),
@@ -146,8 +148,13 @@ impl Session {
         let shaders = ShaderLibrary::new(config.shaders.as_deref(), vec![include])?;
         let batches = Batches::new(scene);
         let gpu_scene = GpuScene::new(&context, &layouts, scene, &batches)?;
-        let depth_sets =
-            DescriptorSets::new(&context, layouts.depth, (vk::DescriptorType::SAMPLED_IMAGE, 1), views)?;
+        let depth_sets = DescriptorSets::new(
+            &context,
+            "depth",
+            layouts.depth,
+            (vk::DescriptorType::SAMPLED_IMAGE, 1),
+            views,
+        )?;
         let targets = depth_sets
             .sets
             .iter()
