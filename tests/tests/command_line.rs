@@ -1,6 +1,7 @@
 //! The program as its users meet it: files in, files out, exit codes, one clear line for what is wrong.
 
 use manylight_tests::manylight;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -108,6 +109,44 @@ fn a_frame_is_the_same_alone_and_in_a_replay() {
     succeed(small(within.path()).args(["--runs", "0"]));
     let last = |out: &Path| counters(&out.join("encl-ortho-4/frames.csv")).pop().unwrap();
     assert_eq!(last(alone.path()), last(within.path()));
+}
+
+#[test]
+fn where_the_frame_alone_is_timed_no_stage_has_a_time() {
+    let out = tempfile::tempdir().unwrap();
+    succeed(small(out.path()).args(["--scopes", "frame", "--frames", "300"]));
+    let table = |name: &str| {
+        let mut reader = csv::Reader::from_path(out.path().join(name)).unwrap();
+        reader.deserialize().map(Result::unwrap).collect::<Vec<BTreeMap<String, String>>>()
+    };
+    let timings = table("encl-ortho-4/timings.csv");
+    assert_eq!(timings.len(), 1);
+    assert_eq!(timings[0]["stage"], "frame");
+    let frame = &table("encl-ortho-4/frames.csv")[0];
+    assert!(frame["gpu_ms_frame"].parse::<f64>().unwrap() > 0.0);
+    assert_eq!([&frame["gpu_ms_cluster"], &frame["gpu_ms_shade"]], ["", ""]);
+    assert_eq!(table("summary.csv")[0]["shading_ms"], "");
+}
+
+#[test]
+fn a_display_of_many_eyes_is_replayed() {
+    let directory = tempfile::tempdir().unwrap();
+    let bundled = Path::new(env!("CARGO_MANIFEST_DIR")).join("../recordings/bistro-vive.json");
+    let mut recording: serde_json::Value = serde_json::from_str(&read(bundled)).unwrap();
+    let eyes = recording["hmd"]["eyes"].as_array_mut().unwrap();
+    let right = eyes.remove(1);
+    for number in 1..12 {
+        let mut eye = right.clone();
+        eye["name"] = format!("eye{number}").into();
+        eyes.push(eye);
+    }
+    let path = directory.path().join("many-eyes.json");
+    fs::write(&path, recording.to_string()).unwrap();
+    let mut replay = small(&directory.path().join("out"));
+    replay.args(["--resolution", "16x16", "--frames", "300", "--validate", "--recording"]).arg(path);
+    succeed(&mut replay);
+    let rows = counters(&directory.path().join("out/indi-persp-64/clusterings.csv"));
+    assert_eq!(rows.len(), 12);
 }
 
 #[test]

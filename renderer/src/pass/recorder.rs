@@ -83,24 +83,27 @@ pub struct Timestamps {
     cpu_ms: Vec<f64>,
 }
 
-/// More scopes than any method's stage tree has, for up to eight views.
-const MAX_SCOPES: usize = 128;
+/// More scopes than any method's stage tree has for `views` views.
+const fn most_scopes(views: usize) -> usize {
+    16 + 32 * views
+}
 
 impl Timestamps {
-    /// Queries for one frame in flight.
-    pub fn new(context: &Arc<Context>) -> crate::Result<Self> {
+    /// Queries for one frame in flight with `views` views.
+    pub fn new(context: &Arc<Context>, views: usize) -> crate::Result<Self> {
+        let scopes = most_scopes(views);
         let info = vk::QueryPoolCreateInfo::default()
             .query_type(vk::QueryType::TIMESTAMP)
-            .query_count(2 * MAX_SCOPES as u32);
+            .query_count(2 * scopes as u32);
         let pool = unsafe { context.device.create_query_pool(&info, None) }
             .map_err(|e| crate::Error::Device(format!("cannot create timestamp queries: {e}")))?;
         context.name(pool, "timestamps");
         Ok(Self {
             context: context.clone(),
             pool,
-            values: vec![0; 2 * MAX_SCOPES],
+            values: vec![0; 2 * scopes],
             timed: 0,
-            cpu_ms: Vec::with_capacity(MAX_SCOPES),
+            cpu_ms: Vec::with_capacity(scopes),
         })
     }
 
@@ -166,7 +169,8 @@ impl<'a> Recorder<'a> {
         tracker.0.begin_frame();
         timestamps.timed = 0;
         timestamps.cpu_ms.clear();
-        unsafe { context.device.cmd_reset_query_pool(commands, timestamps.pool, 0, 2 * MAX_SCOPES as u32) };
+        let queries = timestamps.values.len() as u32;
+        unsafe { context.device.cmd_reset_query_pool(commands, timestamps.pool, 0, queries) };
         let recorder =
             Self { context, commands, tree, timestamps, tracker, timed_scopes, opened: 0, current: None };
         recorder.full_barrier();
@@ -176,7 +180,7 @@ impl<'a> Recorder<'a> {
     /// Runs `body` as a stage: labelled, timed, child of the stage that is open.
     pub fn scope<R>(&mut self, name: impl Into<ScopeName>, body: impl FnOnce(&mut Self) -> R) -> R {
         let position = self.opened;
-        assert!(position < MAX_SCOPES, "a frame has more than {MAX_SCOPES} stages");
+        assert!(2 * position < self.timestamps.values.len(), "a frame has more stages than queries");
         self.opened += 1;
         self.tree.enter(position, name.into(), self.current);
         let outer = self.current.replace(position);

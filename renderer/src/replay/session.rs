@@ -53,7 +53,7 @@ impl Slot {
             pool,
             commands,
             fence,
-            timestamps: Timestamps::new(context)?,
+            timestamps: Timestamps::new(context, views)?,
             views: Buffer::new(
                 context,
                 "views",

@@ -113,6 +113,8 @@ impl Samples {
                 stages: paths
                     .iter()
                     .zip(times)
+                    // Stages that got no timestamps were not timed.
+                    .filter(|(_, (gpu_ms, _))| !gpu_ms.is_nan())
                     .map(|(path, &(gpu_ms, cpu_ms))| StageTime { stage: (*path).to_owned(), gpu_ms, cpu_ms })
                     .collect(),
             })

@@ -27,9 +27,8 @@ impl SamplerCache {
         Ok(cache)
     }
 
-    /// The sampler with the filter and wrap modes of `key`: nearest texel and nearest mip, or trilinear and
-    /// on GPUs
-    /// anisotropic up to the lesser of 8 and the device's limit.
+    /// The sampler with the filter and wrap modes of `key`: nearest texel and nearest mip, or trilinear and,
+    /// on GPUs, anisotropic up to the lesser of 8 and the device's limit.
     pub fn get(&self, key: scene::Sampler) -> vk::Sampler {
         self.samplers[index(key)]
     }
