@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what manylight needs and this machine lacks: a C++ compiler, the Vulkan loader, and lavapipe where no GPU
-# driver is there. With --validation also the validation layers. Idempotent, asks nothing, needs root or sudo only when
-# something is missing.
+# driver is there. With --validation also the validation layers, with --browser also Chromium, in which reports are
+# tested. Idempotent, asks nothing, needs root or sudo only when something is missing.
 set -euo pipefail
 
 packages=()
@@ -32,13 +32,28 @@ has_validation() {
     return 1
 }
 
+has_browser() {
+    local name
+    for name in chromium chromium-browser google-chrome; do
+        command -v "$name" >/dev/null 2>&1 && return 0
+    done
+    return 1
+}
+
 need_command g++ g++
 need_command git git
 has_library libvulkan.so.1 || packages+=(libvulkan1)
 has_driver || packages+=(mesa-vulkan-drivers)
-if [ "${1:-}" = --validation ]; then
-    has_validation || packages+=(vulkan-validationlayers)
-fi
+for option in "$@"; do
+    case "$option" in
+        --validation) has_validation || packages+=(vulkan-validationlayers) ;;
+        --browser) has_browser || packages+=(chromium) ;;
+        *)
+            echo "setup: unknown option $option: use --validation or --browser" >&2
+            exit 2
+            ;;
+    esac
+done
 
 if [ ${#packages[@]} -gt 0 ]; then
     if ! command -v apt-get >/dev/null 2>&1; then

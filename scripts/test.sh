@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/setup.sh --validation
+scripts/setup.sh --validation --browser
 
 step() {
     printf '\n== %s\n' "$*"

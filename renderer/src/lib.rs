@@ -32,6 +32,7 @@ pub mod pipelines;
 pub mod rain;
 pub mod recording;
 pub mod replay;
+pub mod report;
 pub mod scene;
 pub mod views;
 pub mod vk;

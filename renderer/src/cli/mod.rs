@@ -7,6 +7,7 @@ mod devices;
 mod import_recording;
 mod interrupt;
 mod replay;
+mod report;
 mod scene;
 mod usage;
 
@@ -49,6 +50,8 @@ The environment variable RUST_LOG (warn, info, debug, ...) sets how much is logg
 enum Command {
     /// Replay a recording by one or more methods, and time and count every stage
     Replay(Box<replay::Args>),
+    /// Draw the figures of results, check the claims, write it all as one page
+    Report(report::Args),
     /// List the Vulkan devices, with the limits that matter
     Devices,
     /// Print a scene's triangles, materials, textures and bounds
@@ -81,6 +84,7 @@ pub fn main() -> ExitCode {
 fn dispatch(command: Command, console: &Console) -> Result<()> {
     match command {
         Command::Replay(args) => replay::run(*args, console),
+        Command::Report(args) => report::run(&args, console),
         Command::Devices => devices::run(console),
         Command::Scene(args) => scene::run(&args, console),
         Command::ImportRecording(args) => import_recording::run(&args, console),

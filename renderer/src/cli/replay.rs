@@ -8,6 +8,7 @@ use crate::output::{
     planned_runs, prepare_output, rfc3339_utc, write_summary,
 };
 use crate::replay::{Inputs, RunResult, RunSink, Watch, frame_total, replay};
+use crate::report::write_report;
 use crate::{Error, Result};
 use std::path::PathBuf;
 
@@ -18,6 +19,10 @@ pub struct Args {
     /// JSON configuration over the built-in defaults; flags go over it.
     #[arg(long, value_name = "FILE.json")]
     config: Option<PathBuf>,
+
+    /// Afterwards write a report on everything in the output directory, as `manylight report` does.
+    #[arg(long)]
+    report: bool,
 
     #[command(flatten)]
     layer: Layer,
@@ -46,6 +51,10 @@ pub fn run(args: Args, console: &Console) -> Result<()> {
     outcome.map_err(|error| with_progress(error, done.len(), runs.len()))?;
     console.result(&summary)?;
     console.note(&format!("results are in {}", config.out.display()));
+    if args.report {
+        let report = write_report(std::slice::from_ref(&config.out), None)?;
+        console.note(&format!("the report is {}", report.page.display()));
+    }
     Ok(())
 }
 

@@ -1,0 +1,239 @@
+//! The figures of the thesis (Gelderen chapter 6, appendices A and C), each from whatever data there are.
+
+mod attenuation;
+mod breakdown;
+mod distribution;
+mod over_time;
+mod pictures;
+
+use super::chart::{Chart, palette::Color};
+use super::results::{ResultSet, Setting};
+use crate::Result;
+use crate::methods::{MethodSpec, Space};
+use over_time::Sweep;
+
+pub use pictures::galleries;
+
+/// A figure: drawn from one setting's runs, or a note of what is missing.
+#[derive(Debug, Clone)]
+pub struct Figure {
+    /// Number in the thesis, `-2` and so on behind it for further settings: name of its files.
+    pub id: String,
+    /// One line.
+    pub title: String,
+    /// What is drawn, and what it was drawn from.
+    pub caption: String,
+    /// The setting, for people; empty where nothing was measured for it.
+    pub setting: String,
+    /// The drawing; `None` where there are no data.
+    pub chart: Option<Chart>,
+}
+
+/// What the thesis draws, before data are found for it.
+struct Wanted<'a> {
+    id: &'a str,
+    title: &'a str,
+    caption: &'a str,
+    missing: &'a str,
+}
+
+/// A drawing with the setting it is of and a remark for the caption.
+struct Drawn<'a> {
+    setting: &'a Setting,
+    chart: Chart,
+    remark: String,
+}
+
+/// Every figure in the order of the thesis.
+///
+/// # Errors
+/// A picture cannot be read.
+pub fn all(set: &ResultSet) -> Result<Vec<Figure>> {
+    let street = Scene { set, sun_temple: false };
+    let temple = Scene { set, sun_temple: true };
+    let mut figures = street.pictures("6.1", "Frames of the replay", &[300, 580])?;
+    figures.extend(street.sweeps(&[(Sweep::Persp, "6.2"), (Sweep::Ortho, "6.3"), (Sweep::Displ, "6.4")]));
+    figures.extend(street.comparisons(["6.5", "6.6", "6.7", "6.8", "6.9", "6.10"]));
+    figures.push(attenuation::figure());
+    figures.extend(temple.pictures("C.1", "A frame of the Sun Temple replay", &[250])?);
+    figures.extend(temple.pictures("C.2", "A later frame of the Sun Temple replay", &[680])?);
+    figures.extend(temple.sweeps(&[(Sweep::Ortho, "C.3"), (Sweep::Persp, "C.4")]));
+    // The thesis prints no more of this scene; what was measured beyond is drawn like its counterparts.
+    let mut further = temple.sweeps(&[(Sweep::Displ, "C-6.4")]);
+    further.extend(temple.comparisons(["C-6.5", "C-6.6", "C-6.7", "C-6.8", "C-6.9", "C-6.10"]));
+    figures.extend(further.into_iter().filter(|figure| figure.chart.is_some()));
+    Ok(figures)
+}
+
+/// The runs of the thesis's first or second scene, and of those that stand in for it.
+struct Scene<'a> {
+    set: &'a ResultSet,
+    sun_temple: bool,
+}
+
+impl<'a> Scene<'a> {
+    fn settings(&self, stereo: bool) -> Vec<&'a Setting> {
+        let belongs =
+            |setting: &&Setting| setting.is_sun_temple() == self.sun_temple && setting.is_stereo() == stereo;
+        self.set.settings().into_iter().filter(belongs).collect()
+    }
+
+    /// One figure a mono setting that has data for it; of stereo settings where none has.
+    fn mono_first(&self, wanted: &Wanted<'_>, draw: impl Fn(&'a Setting) -> Option<Chart>) -> Vec<Figure> {
+        let from = |stereo: bool, remark: &str| -> Vec<Drawn<'a>> {
+            let drawn = |setting| Some(Drawn { setting, chart: draw(setting)?, remark: remark.into() });
+            self.settings(stereo).into_iter().filter_map(drawn).collect()
+        };
+        let mut drawn = from(false, "");
+        if drawn.is_empty() {
+            drawn = from(true, " There is no mono run: drawn from Indi in stereo, both views together.");
+        }
+        figures(wanted, drawn)
+    }
+
+    fn sweeps(&self, sweeps: &[(Sweep, &str)]) -> Vec<Figure> {
+        let draw = |&(sweep, id): &(Sweep, &str)| {
+            let name = sweep.name();
+            let wanted = Wanted {
+                id,
+                title: &format!("{name} clustering by size"),
+                caption: &format!(
+                    "Profiling results of {name} over the frames of the replay, a line a size: {}. The heavier line \
+                     is the size that the thesis judges best.",
+                    sweep.sizes()
+                ),
+                missing: &format!("needs runs of Indi {name} in at least two sizes"),
+            };
+            self.mono_first(&wanted, |setting| over_time::sweep(self.set, setting, sweep))
+        };
+        sweeps.iter().flat_map(draw).collect()
+    }
+
+    fn comparisons(&self, [sharing, tuned, frame, clustering, lights, fragments]: [&str; 6]) -> Vec<Figure> {
+        let needs_tuned = "needs runs of Indi Persp 64, Ortho 4 or Displ 64 32";
+        let needs_timed = "needs temporal runs of Indi Persp 64, Ortho 4 or Displ 64 32";
+        let stereo = self.settings(true).into_iter().filter_map(|setting| {
+            Some(Drawn { setting, chart: over_time::sharing(self.set, setting)?, remark: String::new() })
+        });
+        let mut found = figures(&SHARING.at(sharing), stereo.collect());
+        let tuned = TUNED.at(tuned).missing(needs_tuned);
+        found.extend(self.mono_first(&tuned, |setting| over_time::tuned(self.set, setting)));
+        let frame = FRAME.at(frame).missing(needs_timed);
+        found.extend(self.mono_first(&frame, |setting| breakdown::frame(self.set, setting)));
+        let clustering = CLUSTERING.at(clustering).missing(needs_timed);
+        found.extend(self.mono_first(&clustering, |setting| breakdown::clustering(self.set, setting)));
+        let lights = LIGHTS.at(lights).missing(needs_tuned);
+        found.extend(self.mono_first(&lights, |setting| distribution::lights(self.set, setting)));
+        let fragments = FRAGMENTS.at(fragments).missing(needs_tuned);
+        found.extend(self.mono_first(&fragments, |setting| distribution::fragments(self.set, setting)));
+        found
+    }
+
+    fn pictures(&self, id: &str, title: &str, frames: &[u32]) -> Result<Vec<Figure>> {
+        let wanted = Wanted {
+            id,
+            title,
+            caption: "Rendered frames, tone-mapped, a column a lighting.",
+            missing: "needs rendered frames: replay with --exr and frame numbers",
+        };
+        for stereo in [false, true] {
+            let mut drawn = vec![];
+            for setting in self.settings(stereo) {
+                if let Some((chart, remark)) = pictures::frames(self.set, setting, frames)? {
+                    drawn.push(Drawn { setting, chart, remark });
+                }
+            }
+            if !drawn.is_empty() {
+                return Ok(figures(&wanted, drawn));
+            }
+        }
+        Ok(figures(&wanted, vec![]))
+    }
+}
+
+const SHARING: Wanted<'static> = Wanted {
+    id: "",
+    title: "Indi against Encl in stereo",
+    caption: "Profiling results of one clustering a view (Indi, solid) and one enclosing clustering for all views \
+              (Encl, broken), Persp 64 and Ortho 4.",
+    missing: "needs stereo runs of Persp 64 or Ortho 4, both Indi and Encl",
+};
+
+const TUNED: Wanted<'static> = Wanted {
+    id: "",
+    title: "The tuned methods",
+    caption: "Profiling results of Persp 64, Ortho 4 and Displ 64 32.",
+    missing: "",
+};
+
+const FRAME: Wanted<'static> = Wanted {
+    id: "",
+    title: "Frame breakdown",
+    caption: "GPU time of the frame (ms). Miscellaneous is what is neither clustering nor shading: lights and the \
+              resolve. Panels of one lighting have one scale.",
+    missing: "",
+};
+
+const CLUSTERING: Wanted<'static> = Wanted {
+    id: "",
+    title: "Clustering breakdown",
+    caption: "GPU time of clustering (ms). Visibility is the depth pass and the marking of visible clusters; \
+              miscellaneous is compaction, transforming lights and prefix sums. Panels of one lighting have one scale.",
+    missing: "",
+};
+
+const LIGHTS: Wanted<'static> = Wanted {
+    id: "",
+    title: "Clusters by light count",
+    caption: "How many clusters (colour, logarithmic) have how many lights (vertical: single values up to 7, then four \
+              rows an octave), frame by frame.",
+    missing: "",
+};
+
+const FRAGMENTS: Wanted<'static> = Wanted {
+    id: "",
+    title: "Clusters by fragment count",
+    caption: "How many clusters (colour, logarithmic) have how many fragments (vertical: single values up to 7, then \
+              four rows an octave), frame by frame. A cluster of Persp 64 cannot have more than 64² fragments at one \
+              sample a pixel.",
+    missing: "",
+};
+
+impl<'a> Wanted<'a> {
+    const fn at(self, id: &'a str) -> Self {
+        Self { id, ..self }
+    }
+
+    const fn missing(self, missing: &'a str) -> Self {
+        Self { missing, ..self }
+    }
+}
+
+/// One figure a drawing, or one that says what is missing.
+fn figures(wanted: &Wanted<'_>, drawn: Vec<Drawn<'_>>) -> Vec<Figure> {
+    let title = wanted.title.to_owned();
+    if drawn.is_empty() {
+        let caption = format!("Not enough data: {}.", wanted.missing);
+        return vec![Figure { id: wanted.id.into(), title, caption, setting: String::new(), chart: None }];
+    }
+    let figure = |(index, drawn): (usize, Drawn<'_>)| Figure {
+        id: if index == 0 { wanted.id.into() } else { format!("{}-{}", wanted.id, index + 1) },
+        title: title.clone(),
+        caption: format!("{}{}", wanted.caption, drawn.remark),
+        setting: drawn.setting.to_string(),
+        chart: Some(drawn.chart),
+    };
+    drawn.into_iter().enumerate().map(figure).collect()
+}
+
+/// The colour of a kind of grid.
+fn space_color(method: MethodSpec) -> Color {
+    match method {
+        MethodSpec::AllLights => "black",
+        MethodSpec::Clustered { space, .. } => match space {
+            Space::Persp { .. } => "blue",
+            Space::Ortho { .. } => "vermillion",
+            Space::Displ { .. } => "green",
+        },
+    }
+}

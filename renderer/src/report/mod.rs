@@ -1,0 +1,122 @@
+//! The evaluation as a page: figures, claims and tables from result directories.
+//!
+//! Reads the files that [`crate::output`] wrote and nothing else: it knows no Vulkan.
+//!
+//! ```text
+//! DIR... ──> load ──> ResultSet ──┬─> figures ──> chart (SVG, CSV) ──┐
+//!                                 ├─> claims ────────────────────────┼──> page (index.html)
+//!                                 └─> stats ─────────────────────────┘
+//! OUT/
+//!   index.html           everything, in one file that opens offline
+//!   claims.json          the claims with the numbers behind them
+//!   runs.csv             statistics of every metric of every run
+//!   figures/ID.svg .csv  each figure, and the numbers plotted
+//! ```
+
+mod bins;
+mod chart;
+mod claims;
+mod figures;
+mod format;
+mod load;
+mod page;
+mod results;
+mod stats;
+
+#[cfg(test)]
+mod testing;
+#[cfg(test)]
+mod tests;
+
+pub use claims::{Claim, Evidence, Number, Verdict};
+
+use crate::output::write_whole;
+use crate::{Error, Result};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use figures::Figure;
+use serde::Serialize;
+use std::fmt;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// What a report holds, for the closing lines.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Report {
+    /// The page.
+    pub page: PathBuf,
+    /// Runs read.
+    pub runs: usize,
+    /// Figures of the thesis that were drawn.
+    pub drawn: Vec<String>,
+    /// Figures of the thesis for which there are no data.
+    pub missing: Vec<String>,
+    /// The claims.
+    pub claims: Vec<Claim>,
+}
+
+/// Reads the runs below `directories` and writes the report to `out`, by default `report` in the first directory.
+///
+/// # Errors
+/// A directory is missing, holds no run, or runs that do not belong together; or a file cannot be written.
+pub fn write_report(directories: &[PathBuf], out: Option<&Path>) -> Result<Report> {
+    let Some(first) = directories.first() else {
+        return Err(Error::input("no directory: give one that a replay wrote"));
+    };
+    let set = load::load(directories)?;
+    let out = out.map_or_else(|| first.join("report"), Path::to_owned);
+    let figures = figures::all(&set)?;
+    let galleries = figures::galleries(&set)?;
+    let claims = claims::check(&set);
+    for figure in figures.iter().chain(&galleries) {
+        write_figure(&out.join("figures"), figure)?;
+    }
+    write_whole(&out.join("runs.csv"), |file| page::write_runs_csv(file, &set))?;
+    let json = serde_json::to_string_pretty(&claims)
+        .map_err(|error| Error::Internal(format!("the claims are not JSON: {error}")))?;
+    write_whole(&out.join("claims.json"), |file| writeln!(file, "{json}"))?;
+    let page = out.join("index.html");
+    let html = page::html(&set, &figures, &galleries, &claims);
+    write_whole(&page, |file| file.write_all(html.as_bytes()))?;
+    let ids = |drawn: bool| {
+        figures
+            .iter()
+            .filter(|figure| figure.chart.is_some() == drawn)
+            .map(|figure| figure.id.clone())
+            .collect()
+    };
+    Ok(Report { page, runs: set.runs.len(), drawn: ids(true), missing: ids(false), claims })
+}
+
+/// Writes a figure's SVG and CSV; of a figure without data, removes those of an earlier report.
+fn write_figure(directory: &Path, figure: &Figure) -> Result<()> {
+    let [svg, csv] = ["svg", "csv"].map(|kind| directory.join(format!("{}.{kind}", figure.id)));
+    let Some(chart) = &figure.chart else {
+        for path in [svg, csv].iter().filter(|path| path.is_file()) {
+            std::fs::remove_file(path)
+                .map_err(|error| Error::file(path, format!("is outdated and cannot be removed: {error}")))?;
+        }
+        return Ok(());
+    };
+    let drawing = chart.svg_file(&figure.id, &figure.title);
+    write_whole(&svg, |file| file.write_all(drawing.as_bytes()))?;
+    write_whole(&csv, |file| chart.write_csv(file))
+}
+
+/// Bytes as a `data:` URI.
+fn data_uri(kind: &str, bytes: &[u8]) -> String {
+    format!("data:{kind};base64,{}", STANDARD.encode(bytes))
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{} runs; figures drawn: {}", self.runs, self.drawn.join(" "))?;
+        if !self.missing.is_empty() {
+            writeln!(f, "no data for figures: {}", self.missing.join(" "))?;
+        }
+        for claim in &self.claims {
+            writeln!(f, "claim {}  {:16} {}", claim.number, claim.verdict, claim.claim)?;
+        }
+        write!(f, "{}", self.page.display())
+    }
+}

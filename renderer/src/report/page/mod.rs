@@ -1,0 +1,255 @@
+//! The page: one HTML file with its styles, script, drawings and numbers inside.
+
+mod runs;
+
+pub use runs::write_runs_csv;
+
+use super::chart::palette;
+use super::claims::{Claim, Evidence, Verdict};
+use super::figures::Figure;
+use super::format::readable;
+use super::results::ResultSet;
+use serde_json::{Map, Value};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// Sections of figures: heading, anchor, and how the figures' numbers begin.
+const SECTIONS: [(&str, &str, &[&str]); 3] = [
+    ("Chapter 6: evaluation", "chapter-6", &["6."]),
+    ("Appendix A: attenuation", "appendix-a", &["A."]),
+    ("Appendix C: Sun Temple", "appendix-c", &["C"]),
+];
+
+/// How numbers come to be: name and explanation.
+const METHOD_NOTES: [(&str, &str); 6] = [
+    (
+        "Times",
+        "GPU time of each stage from timestamp queries around it. Every stage of every frame is timed in each temporal run; \
+         the number drawn is its minimum over those runs. Nothing is counted while times are taken.",
+    ),
+    (
+        "Counters",
+        "One further run with counters in the shaders: visible clusters, light indices, intersection tests, lighting \
+         computations. They depend on the replay alone and repeat exactly.",
+    ),
+    (
+        "Clustering, shading, total",
+        "Clustering is everything from the depth pass to the finished light lists, over all clusterings of the frame; \
+         shading is over all views; total is the whole frame on the GPU.",
+    ),
+    (
+        "Lighting computation",
+        "One evaluation of one light for one fragment. Needed are those closer than the light's influence radius R₁.",
+    ),
+    (
+        "Distributions",
+        "Visible clusters by the length of their light list and by their fragments, of every frame of the counting run.",
+    ),
+    (
+        "Statistics",
+        "Over the frames of a run: mean, median, 95th percentile (linear between neighbours), standard deviation of the \
+         frames as the whole population.",
+    ),
+];
+
+/// The whole page.
+pub fn html(set: &ResultSet, figures: &[Figure], galleries: &[Figure], claims: &[Claim]) -> String {
+    let mut body = String::new();
+    header(&mut body, set);
+    navigation(&mut body, !galleries.is_empty());
+    claims_section(&mut body, claims);
+    for (heading, anchor, prefixes) in SECTIONS {
+        section(&mut body, anchor, heading);
+        let belongs = |figure: &&Figure| prefixes.iter().any(|prefix| figure.id.starts_with(prefix));
+        figures.iter().filter(belongs).for_each(|figure| figure_element(&mut body, figure, true));
+        body.push_str("</section>\n");
+    }
+    if !galleries.is_empty() {
+        section(&mut body, "lights", "Lights per cluster, seen from the camera");
+        galleries.iter().for_each(|figure| figure_element(&mut body, figure, false));
+        body.push_str("</section>\n");
+    }
+    runs::section(&mut body, set);
+    method_section(&mut body, set);
+    document(&body, &numbers(figures))
+}
+
+fn document(body: &str, data: &str) -> String {
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n\
+         <title>manylight report</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{}{}{}</style>\n\
+         <script>{}</script>\n</head>\n<body>\n{body}<div id=\"tip\" role=\"status\" hidden></div>\n\
+         <script type=\"application/json\" id=\"numbers\">{data}</script>\n<script>{}</script>\n</body>\n</html>\n",
+        palette::themes(),
+        include_str!("page.css"),
+        palette::rules(),
+        include_str!("watch.js"),
+        include_str!("page.js"),
+    )
+}
+
+/// Numbers of all drawn figures for the tooltips, by figure; safe within a script element.
+fn numbers(figures: &[Figure]) -> String {
+    let drawn =
+        figures.iter().filter_map(|figure| Some((figure.id.clone(), figure.chart.as_ref()?.hover_data())));
+    Value::Object(drawn.collect::<Map<_, _>>()).to_string().replace('<', "\\u003c")
+}
+
+/// HTML of a text.
+fn text(plain: &str) -> String {
+    super::chart::escape(plain)
+}
+
+fn section(body: &mut String, anchor: &str, heading: &str) {
+    // Writing to a string cannot fail, here and below.
+    let _ = writeln!(body, "<section id=\"{anchor}\">\n<h2>{}</h2>", text(heading));
+}
+
+fn header(body: &mut String, set: &ResultSet) {
+    let mut devices: BTreeMap<&[String; 3], usize> = BTreeMap::new();
+    for run in &set.runs {
+        *devices.entry(&run.device).or_default() += 1;
+    }
+    let _ = writeln!(
+        body,
+        "<header>\n<p class=\"eyebrow\">manylight report</p>\n<h1>Clustered light shading, measured</h1>"
+    );
+    let _ = writeln!(body, "<dl class=\"machine\">");
+    let mut fact = |name: &str, value: &str| {
+        let _ = writeln!(body, "<div><dt>{name}</dt><dd>{}</dd></div>", text(value));
+    };
+    for ([name, driver, api], runs) in &devices {
+        let shared =
+            if devices.len() > 1 { format!(" ({runs} of {} runs)", set.runs.len()) } else { String::new() };
+        fact("Device", &format!("{name}{shared}"));
+        fact("Driver", &format!("{driver}, Vulkan {api}"));
+    }
+    let revision: String = set.git_revision.chars().take(12).collect();
+    fact("Program", &format!("manylight {} ({revision})", set.version));
+    for setting in set.settings() {
+        fact("Replay", &setting.to_string());
+    }
+    let started = set.runs.iter().map(|run| run.started.as_str());
+    let (first, last) = (started.clone().min().unwrap_or_default(), started.max().unwrap_or_default());
+    let hours = set.runs.iter().map(|run| run.duration_s).sum::<f64>();
+    fact("Measured", &format!("{} runs, {first} to {last}, {} s of work", set.runs.len(), readable(hours)));
+    body.push_str("</dl>\n");
+    if devices.len() > 1 {
+        body.push_str("<p class=\"warning\">Runs come from several devices: times of different runs do not compare.</p>\n");
+    }
+    body.push_str("</header>\n");
+}
+
+fn navigation(body: &mut String, galleries: bool) {
+    body.push_str("<nav>\n<a href=\"#claims\">Claims</a>\n");
+    for (heading, anchor, _) in SECTIONS {
+        let short = heading.split(':').next().unwrap_or(heading);
+        let _ = writeln!(body, "<a href=\"#{anchor}\">{short}</a>");
+    }
+    if galleries {
+        body.push_str("<a href=\"#lights\">Lights per cluster</a>\n");
+    }
+    body.push_str("<a href=\"#runs\">All runs</a>\n<a href=\"#method\">How measured</a>\n</nav>\n");
+}
+
+fn figure_element(body: &mut String, figure: &Figure, numbered: bool) {
+    let Figure { id, title, caption, setting, chart } = figure;
+    let name = if numbered { format!("Figure {id}") } else { String::new() };
+    let _ = writeln!(
+        body,
+        "<figure id=\"figure-{id}\" data-figure=\"{id}\" class=\"{}\">",
+        chart.as_ref().map_or("absent", |_| "present")
+    );
+    let _ = writeln!(body, "<h3><span class=\"number\">{name}</span> {}</h3>", text(title));
+    if !setting.is_empty() {
+        let _ = writeln!(body, "<p class=\"setting\">{}</p>", text(setting));
+    }
+    if let Some(chart) = chart {
+        let _ = writeln!(body, "<div class=\"canvas\">{}</div>", chart.svg(id, title));
+    }
+    let _ = writeln!(body, "<figcaption>{}</figcaption>\n</figure>", text(caption));
+}
+
+fn claims_section(body: &mut String, claims: &[Claim]) {
+    section(body, "claims", "Claims of the thesis");
+    body.push_str("<div class=\"claims\">\n");
+    for claim in claims {
+        let (class, sign) = match claim.verdict {
+            Verdict::Holds => ("holds", "✓"),
+            Verdict::DoesNotHold => ("fails", "✗"),
+            Verdict::NotEnoughData => ("open", "–"),
+        };
+        let _ = writeln!(
+            body,
+            "<details class=\"claim\"><summary><span class=\"place\">{}</span><span class=\"words\">{}</span>\
+             <span class=\"verdict {class}\"><i>{sign}</i> {}</span></summary>",
+            claim.number,
+            text(claim.claim),
+            claim.verdict
+        );
+        let _ = writeln!(
+            body,
+            "<p class=\"criterion\"><b>Counts as holding when:</b> {}</p>",
+            text(claim.criterion)
+        );
+        for missing in &claim.missing {
+            let _ = writeln!(body, "<p class=\"criterion\"><b>Missing:</b> {}.</p>", text(missing));
+        }
+        evidence(body, &claim.evidence);
+        body.push_str("</details>\n");
+    }
+    body.push_str("</div>\n</section>\n");
+}
+
+fn evidence(body: &mut String, evidence: &[Evidence]) {
+    if evidence.is_empty() {
+        return;
+    }
+    body.push_str("<div class=\"scroll\"><table class=\"evidence\">\n");
+    let mut setting = "";
+    for item in evidence {
+        if item.setting != setting {
+            setting = &item.setting;
+            let _ = writeln!(body, "<tr><th colspan=\"3\">{}</th></tr>", text(setting));
+        }
+        let numbers: Vec<String> = item
+            .numbers
+            .iter()
+            .map(|number| {
+                format!(
+                    "<span><em>{}</em> {} {}</span>",
+                    text(&number.name),
+                    readable(number.value),
+                    number.unit
+                )
+            })
+            .collect();
+        let (class, sign) = if item.holds { ("holds", "✓ holds") } else { ("fails", "✗ fails") };
+        let _ = writeln!(
+            body,
+            "<tr><td>{}</td><td class=\"numbers\">{}</td><td class=\"verdict {class}\">{sign}</td></tr>",
+            text(&item.comparison),
+            numbers.join(" ")
+        );
+    }
+    body.push_str("</table></div>\n");
+}
+
+fn method_section(body: &mut String, set: &ResultSet) {
+    section(body, "method", "How each number was made");
+    body.push_str("<dl class=\"notes\">\n");
+    for (name, note) in METHOD_NOTES {
+        let _ = writeln!(body, "<div><dt>{name}</dt><dd>{note}</dd></div>");
+    }
+    let mut runs: Vec<u32> = set.runs.iter().map(|run| run.temporal_runs).collect();
+    runs.sort_unstable();
+    runs.dedup();
+    let runs: Vec<String> = runs.iter().map(u32::to_string).collect();
+    let _ = writeln!(
+        body,
+        "<div><dt>Here</dt><dd>Minima are over {} temporal runs; the table above says how many frames each run has.</dd></div>",
+        runs.join(" or ")
+    );
+    body.push_str("</dl>\n</section>\n");
+}

@@ -1,0 +1,255 @@
+//! What result directories hold, as types that figures and claims ask.
+
+use crate::methods::{MethodSpec, Sharing, Space};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// Metrics of `frames.csv` that figures and claims name.
+pub mod metric {
+    /// Visible clusters, over clusterings.
+    pub const VISIBLE: &str = "visible_clusters";
+    /// Light indices, over clusterings.
+    pub const INDICES: &str = "light_indices";
+    /// Lighting computations.
+    pub const COMPUTATIONS: &str = "lighting_computations";
+    /// Sphere against cluster tests, over clusterings.
+    pub const TESTS: &str = "intersection_tests";
+    /// GPU time of the frame, milliseconds.
+    pub const FRAME: &str = "gpu_ms_frame";
+    /// GPU time of clustering, milliseconds.
+    pub const CLUSTER: &str = "gpu_ms_cluster";
+    /// GPU time of depth pass and marking, milliseconds.
+    pub const VISIBILITY: &str = "gpu_ms_visibility";
+    /// GPU time of counting lights, milliseconds.
+    pub const COUNT: &str = "gpu_ms_count_lights";
+    /// GPU time of writing light lists, milliseconds.
+    pub const ASSIGN: &str = "gpu_ms_assign_lights";
+    /// GPU time of shading, milliseconds.
+    pub const SHADE: &str = "gpu_ms_shade";
+}
+
+/// Every run of the given directories, of one version of the program.
+#[derive(Debug, Clone, Default)]
+pub struct ResultSet {
+    /// By setting, lighting, method.
+    pub runs: Vec<Run>,
+    /// Version of the program that measured.
+    pub version: String,
+    /// Its git revision.
+    pub git_revision: String,
+}
+
+/// What runs must share for their numbers to be drawn in one figure.
+#[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Setting {
+    /// Scene by name.
+    pub scene: String,
+    /// Recording by name.
+    pub recording: String,
+    /// Rendering cameras.
+    pub views: u32,
+    /// Width and height of each view, pixels.
+    pub resolution: [u32; 2],
+    /// Samples a pixel.
+    pub msaa: u32,
+    /// What else tells settings apart: attenuation, marking, volume that sizes Displ.
+    pub options: Vec<String>,
+    /// Hexadecimal SHA-256 of scene and recording.
+    pub hashes: [String; 2],
+}
+
+/// Where a run's light came from.
+#[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct LightingName {
+    /// How many lights, where the rain made them.
+    pub count: Option<u32>,
+    /// For people: `10 000 lights`.
+    pub label: String,
+}
+
+/// One run directory.
+#[derive(Debug, Clone)]
+pub struct Run {
+    /// Its path below the directory given.
+    pub name: String,
+    /// What it shares with others.
+    pub setting: Setting,
+    /// How lights were found.
+    pub method: MethodSpec,
+    /// Where they came from.
+    pub lighting: LightingName,
+    /// Device, driver and Vulkan version.
+    pub device: [String; 3],
+    /// When it started, RFC 3339.
+    pub started: String,
+    /// How long it took, seconds.
+    pub duration_s: f64,
+    /// How many temporal runs the minima are over.
+    pub temporal_runs: u32,
+    /// Grid of the first clustering of the first frame.
+    pub grid: Option<[u32; 3]>,
+    /// `frames.csv`.
+    pub frames: Frames,
+    /// Clusters by light count and by fragment count; loaded of tuned methods alone.
+    pub distributions: BTreeMap<Distribution, Vec<Vec<u64>>>,
+    /// The most fragments of any cluster of any frame; known of tuned methods alone.
+    pub most_fragments: Option<u64>,
+    /// Rendered frames.
+    pub pictures: Vec<Picture>,
+}
+
+/// What clusters are counted by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Distribution {
+    /// Length of the light list.
+    Lights,
+    /// Fragments.
+    Fragments,
+}
+
+/// `frames.csv` by column.
+#[derive(Debug, Clone, Default)]
+pub struct Frames {
+    /// Frame numbers, ascending.
+    pub numbers: Vec<u32>,
+    /// Metrics in the file's order; `None` where a cell is empty.
+    pub metrics: Vec<(String, Vec<Option<f64>>)>,
+}
+
+/// Images of one frame.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Picture {
+    /// Frame number.
+    pub frame: u32,
+    /// As a display shows it.
+    pub image: PathBuf,
+    /// Lights per cluster as colour.
+    pub lights: Option<PathBuf>,
+}
+
+impl ResultSet {
+    /// Distinct settings, ascending.
+    pub fn settings(&self) -> Vec<&Setting> {
+        let mut settings: Vec<&Setting> = self.runs.iter().map(|run| &run.setting).collect();
+        settings.sort();
+        settings.dedup();
+        settings
+    }
+
+    /// The runs of a setting.
+    pub fn of<'a>(&'a self, setting: &'a Setting) -> impl Iterator<Item = &'a Run> + Clone {
+        self.runs.iter().filter(move |run| run.setting == *setting)
+    }
+
+    /// A method's runs in a setting, by lighting.
+    pub fn of_method<'a>(&'a self, setting: &'a Setting, method: MethodSpec) -> Vec<&'a Run> {
+        self.of(setting).filter(|run| run.method == method).collect()
+    }
+}
+
+/// Distinct lightings of runs, fewest lights first.
+pub fn lightings<'a>(runs: impl IntoIterator<Item = &'a Run>) -> Vec<LightingName> {
+    let mut lightings: Vec<LightingName> = runs.into_iter().map(|run| run.lighting.clone()).collect();
+    lightings.sort();
+    lightings.dedup();
+    lightings
+}
+
+impl Setting {
+    /// Whether a frame is seen by two cameras or more.
+    pub fn is_stereo(&self) -> bool {
+        self.views > 1
+    }
+
+    /// Which part of the thesis the scene belongs to.
+    pub fn is_sun_temple(&self) -> bool {
+        let belongs = |name: &str| {
+            let name = name.to_ascii_lowercase();
+            name.contains("temple") || name.contains("suntem")
+        };
+        belongs(&self.scene) || belongs(&self.recording)
+    }
+
+    /// Whether the camera flies the thesis's path through the street, which looks at far geometry around frame 580.
+    pub fn flies_the_street(&self) -> bool {
+        self.recording.to_ascii_lowercase().contains("bistro")
+    }
+}
+
+impl std::fmt::Display for Setting {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [width, height] = self.resolution;
+        let views = match self.views {
+            1 => "mono".to_owned(),
+            2 => "stereo".to_owned(),
+            views => format!("{views} views"),
+        };
+        write!(f, "{}, recording {}, {views}, {width} × {height}", self.scene, self.recording)?;
+        if self.is_stereo() {
+            f.write_str(" a view")?;
+        }
+        if self.msaa > 1 {
+            write!(f, ", {} samples a pixel", self.msaa)?;
+        }
+        self.options.iter().try_for_each(|option| write!(f, ", {option}"))
+    }
+}
+
+impl Frames {
+    /// A metric's cells; empty where the file has no such column.
+    pub fn metric(&self, name: &str) -> &[Option<f64>] {
+        self.metrics.iter().find(|(known, _)| known == name).map_or(&[], |(_, cells)| cells)
+    }
+
+    /// (frame, value) wherever there is a value.
+    pub fn points(&self, name: &str) -> Vec<[f64; 2]> {
+        let cells = self.metric(name).iter();
+        self.numbers
+            .iter()
+            .zip(cells)
+            .filter_map(|(&frame, cell)| Some([f64::from(frame), (*cell)?]))
+            .collect()
+    }
+
+    /// The values that are there.
+    pub fn values(&self, name: &str) -> impl Iterator<Item = f64> {
+        self.metric(name).iter().filter_map(|cell| *cell)
+    }
+}
+
+/// A method as figures name it: `Indi Persp 64`, without `Indi` where `sharing` is not told.
+pub fn method_name(method: MethodSpec, with_sharing: bool) -> String {
+    let MethodSpec::Clustered { sharing, space } = method else { return "All lights".into() };
+    let space = match space {
+        Space::Persp { pixels } => format!("Persp {pixels}"),
+        Space::Ortho { metres } => format!("Ortho {metres}"),
+        Space::Displ { pixels, displacement } => format!("Displ {pixels} {displacement}"),
+    };
+    match (with_sharing, sharing) {
+        (false, _) => space,
+        (true, Sharing::Indi) => format!("Indi {space}"),
+        (true, Sharing::Encl) => format!("Encl {space}"),
+    }
+}
+
+/// The sizes that Gelderen chapter 6 finds best.
+pub const TUNED: [Space; 3] = [
+    Space::Persp { pixels: 64.0 },
+    Space::Ortho { metres: 4.0 },
+    Space::Displ { pixels: 64.0, displacement: 32.0 },
+];
+
+/// Whether a method has one of the tuned sizes.
+pub fn is_tuned(method: MethodSpec) -> bool {
+    matches!(method, MethodSpec::Clustered { space, .. } if TUNED.contains(&space))
+}
+
+/// The method of one clustering a view.
+pub const fn indi(space: Space) -> MethodSpec {
+    MethodSpec::Clustered { sharing: Sharing::Indi, space }
+}
+
+/// The method of one clustering for all views.
+pub const fn encl(space: Space) -> MethodSpec {
+    MethodSpec::Clustered { sharing: Sharing::Encl, space }
+}

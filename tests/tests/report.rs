@@ -1,0 +1,246 @@
+//! The report as its readers meet it: the files, the page in a browser, one clear line for what is wrong.
+
+use manylight::config::Config;
+use manylight::measure::{ClusterRecord, ClusteringCounts, FrameCounts, FrameTimes, StageTime, ViewPixels};
+use manylight::output::{Manifest, RUN_FORMAT, RunWriter, Source};
+use manylight_tests::manylight;
+use std::ffi::OsStr;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// Frames of the made-up runs.
+const FRAMES: [u32; 4] = [0, 300, 580, 660];
+
+/// A run directory as a replay would write it, with made-up numbers and two pictures.
+fn write_run(out: &Path, scene: [&str; 2], views: u32, method: &str, lights: u32) {
+    let lighting = Config::default().lights[0];
+    let manifest = Manifest {
+        format: RUN_FORMAT,
+        version: "0.1.0",
+        git_revision: "unknown",
+        method: method.into(),
+        lighting: Some(manylight::config::Lighting { count: lights, ..lighting }),
+        config: Config { resolution: [32, 20], ..Config::default() },
+        scene: Source { name: scene[0].into(), sha256: "0".into() },
+        recording: Source { name: scene[1].into(), sha256: "1".into() },
+        device: Default::default(),
+        capacities: Default::default(),
+        growth: vec![],
+        started: "2026-01-01T00:00:00Z".into(),
+        duration_s: 1.0,
+    };
+    let clusterings = if method.starts_with("encl") { 1 } else { views };
+    let counts = FRAMES.map(|frame| counts(frame, views, clusterings));
+    let times: Vec<FrameTimes> =
+        FRAMES.iter().flat_map(|&frame| [times(0, frame), times(1, frame)]).collect();
+    let writer = RunWriter::create(out, &format!("{method}_{lights}")).unwrap();
+    for frame in [300, 580] {
+        writer.write_images(frame, &[pixels()], None).unwrap();
+    }
+    writer.finish(&manifest, &counts, &times).unwrap();
+}
+
+fn counts(frame: u32, views: u32, clusterings: u32) -> FrameCounts {
+    let cluster = |index| ClusterRecord { index, fragments: 40 * index + 1, lights: index * index };
+    let clustering = ClusteringCounts {
+        dimensions: [10, 12, 24],
+        visible_clusters: 30,
+        light_indices: 9000,
+        intersection_tests: 30_000,
+        clusters: (0..30).map(cluster).collect(),
+        ..ClusteringCounts::default()
+    };
+    FrameCounts {
+        frame,
+        time_s: f64::from(frame) / 90.0,
+        views,
+        clusterings: vec![clustering; clusterings as usize],
+        lighting_computations: 1000 + u64::from(frame),
+        ..FrameCounts::default()
+    }
+}
+
+fn times(run: u32, frame: u32) -> FrameTimes {
+    let stage = |stage: &str, gpu_ms| StageTime { stage: stage.into(), gpu_ms, cpu_ms: 0.1 };
+    let more = f64::from(run);
+    let stages = vec![
+        stage("frame", 12.0 + more),
+        stage("frame/cluster[0]", 5.0 + more),
+        stage("frame/cluster[0]/depth[0]", 1.5),
+        stage("frame/cluster[0]/count_lights", 1.0),
+        stage("frame/cluster[0]/assign_lights", 2.0),
+        stage("frame/shade[0]", 6.0 + more),
+    ];
+    FrameTimes { run, frame, stages }
+}
+
+fn pixels() -> ViewPixels {
+    let pixels = 32 * 20;
+    let channel = |value: f32| half::f16::from_f32(value);
+    ViewPixels {
+        name: "mono".into(),
+        width: 32,
+        height: 20,
+        color: (0..pixels)
+            .map(|i| [channel(i as f32 / 640.0), channel(0.2), channel(0.4), channel(1.0)])
+            .collect(),
+        depth: vec![1.0; pixels],
+        light_count: (0..pixels as u32).collect(),
+        fragment_count: vec![1; pixels],
+        cluster_index: vec![0; pixels],
+        world_from_view: Default::default(),
+        clip_from_view: Default::default(),
+    }
+}
+
+/// Results for every figure: both scenes, sweeps in mono, tuned methods in stereo, two lightings.
+fn write_everything(out: &Path) {
+    let mono = [
+        "indi-persp-16",
+        "indi-persp-64",
+        "indi-ortho-4",
+        "indi-ortho-16",
+        "indi-displ-64-8",
+        "indi-displ-64-32",
+    ];
+    let stereo = ["indi-persp-64", "encl-persp-64", "indi-ortho-4", "encl-ortho-4"];
+    for lights in [1000, 10_000] {
+        for method in mono {
+            write_run(&out.join("street"), ["street", "bistro"], 1, method, lights);
+            write_run(&out.join("deep/temple"), ["temple", "suntem"], 1, method, lights);
+        }
+        for method in stereo {
+            write_run(&out.join("stereo"), ["street", "bistro-vive"], 2, method, lights);
+        }
+    }
+}
+
+fn report(arguments: &[&OsStr]) -> Output {
+    manylight().arg("report").args(arguments).output().expect("the program starts")
+}
+
+/// The one line on standard error, after exit code 2.
+fn refused(arguments: &[&OsStr]) -> String {
+    let output = report(arguments);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert_eq!(message.lines().count(), 1, "{message}");
+    message
+}
+
+const OF_THE_THESIS: [&str; 14] =
+    ["6.2", "6.3", "6.4", "6.5", "6.6", "6.7", "6.8", "6.9", "6.10", "A.1", "C.1", "C.2", "C.3", "C.4"];
+
+/// What the page says of itself after its self-test in a headless browser.
+fn self_test(page: &Path) -> serde_json::Value {
+    let home = tempfile::tempdir().unwrap();
+    let browser = ["chromium", "chromium-browser", "google-chrome"].into_iter().find_map(|name| {
+        let mut command = Command::new(name);
+        command.args(["--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-sync"]);
+        command.args([
+            "--disable-background-networking",
+            "--disable-component-update",
+            "--window-size=1280,800",
+        ]);
+        command.args(["--virtual-time-budget=10000", "--dump-dom"]);
+        command.arg(format!("--user-data-dir={}", home.path().display()));
+        command.arg(format!("file://{}#selftest", page.display()));
+        command.output().ok()
+    });
+    let browser = browser.expect("install chromium: scripts/setup.sh --browser");
+    let dom = String::from_utf8_lossy(&browser.stdout).into_owned();
+    let found = dom.split_once("data-selftest=\"").and_then(|(_, rest)| rest.split_once('"'));
+    let (json, _) =
+        found.unwrap_or_else(|| panic!("no self-test: {}", String::from_utf8_lossy(&browser.stderr)));
+    serde_json::from_str(&json.replace("&quot;", "\"").replace("&lt;", "<").replace("&amp;", "&")).unwrap()
+}
+
+#[test]
+fn the_page_opens_offline_draws_every_figure_and_tells_values() {
+    let results = tempfile::tempdir().unwrap();
+    write_everything(results.path());
+    let output = report(&[results.path().as_ref()]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let directory = results.path().join("report");
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(printed.lines().last(), Some(directory.join("index.html").to_str().unwrap()));
+    for id in OF_THE_THESIS {
+        for kind in ["svg", "csv"] {
+            assert!(directory.join(format!("figures/{id}.{kind}")).is_file(), "{id}.{kind}");
+        }
+    }
+    let claims: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(directory.join("claims.json")).unwrap()).unwrap();
+    assert_eq!(claims.as_array().unwrap().len(), 8);
+    assert_eq!(claims[0]["verdict"], "holds");
+
+    let seen = self_test(&directory.join("index.html"));
+    assert_eq!(seen["problems"], serde_json::json!([]));
+    assert_eq!(seen["requests"], serde_json::json!([]));
+    assert_eq!(seen["wide"], 0, "the page is no wider than the window");
+    assert_eq!(seen["tipHidden"], true, "the tip goes with the pointer");
+    for id in OF_THE_THESIS {
+        assert!(seen["marks"][id].as_u64() > Some(0), "{id} has no marks: {seen}");
+        if !["C.1", "C.2"].contains(&id) {
+            let tip = seen["hovered"][id].as_str().unwrap_or_default();
+            assert!(tip.chars().any(|c| c.is_ascii_digit()), "{id} tells no value: {seen}");
+        }
+    }
+    assert!(seen["hovered"]["6.2"].as_str().unwrap().contains("Persp 64"), "{seen}");
+    assert!(seen["hovered"]["6.7"].as_str().unwrap().contains("Shading"), "{seen}");
+}
+
+#[test]
+fn a_second_report_equals_the_first_and_removes_what_is_outdated() {
+    let results = tempfile::tempdir().unwrap();
+    write_run(results.path(), ["street", "bistro"], 1, "indi-ortho-4", 1000);
+    let out = tempfile::tempdir().unwrap();
+    let arguments = [results.path().as_os_str(), "--out".as_ref(), out.path().as_os_str()];
+    fs::create_dir(out.path().join("figures")).unwrap();
+    fs::write(out.path().join("figures/6.5.svg"), "old").unwrap();
+    let read = || fs::read(out.path().join("index.html")).unwrap();
+    assert!(report(&arguments).status.success());
+    let first = read();
+    assert!(report(&arguments).status.success());
+    assert!(first == read(), "the page depends on the results alone");
+    assert!(!out.path().join("figures/6.5.svg").exists());
+    assert!(out.path().join("figures/6.7.svg").is_file());
+}
+
+/// Rewrites a file of a run.
+fn edit(path: &Path, from: &str, to: &str) {
+    let text = fs::read_to_string(path).unwrap();
+    assert!(text.contains(from));
+    fs::write(path, text.replacen(from, to, 1)).unwrap();
+}
+
+#[test]
+fn what_is_no_result_is_refused_in_one_line() {
+    let results = tempfile::tempdir().unwrap();
+    let path = results.path();
+    let missing = path.join("nowhere");
+    assert!(refused(&[missing.as_ref()]).contains("there is no such directory"));
+    assert!(refused(&[path.as_ref()]).contains("holds no results"));
+    write_run(path, ["street", "bistro"], 1, "indi-ortho-4", 1000);
+    let run = path.join("indi-ortho-4_1000");
+    let file = run.join("frames.csv");
+    assert!(refused(&[file.as_ref()]).contains("is no directory"));
+
+    write_run(path, ["street", "bistro"], 1, "indi-persp-64", 1000);
+    let other = path.join("indi-persp-64_1000/run.json");
+    edit(&other, "\"version\": \"0.1.0\"", "\"version\": \"0.0.9\"");
+    let message = refused(&[path.as_ref()]);
+    assert!(message.contains("0.0.9") && message.contains("different versions"), "{message}");
+    edit(&other, "manylight.run/1", "manylight.run/9");
+    assert!(refused(&[path.as_ref()]).contains("has format manylight.run/9"));
+    fs::write(&other, "{}").unwrap();
+    assert!(refused(&[path.as_ref()]).contains("was not written by a replay"));
+    fs::remove_dir_all(other.parent().unwrap()).unwrap();
+
+    assert!(refused(&[path.as_ref(), run.as_ref()]).contains("measured twice"));
+    edit(&file, "visible_clusters", "visible");
+    assert!(refused(&[run.as_ref()]).contains("no column 'visible_clusters'"));
+    fs::remove_file(&file).unwrap();
+    assert!(refused(&[run.as_ref()]).contains("is missing"));
+}
