@@ -267,7 +267,9 @@ fn color_bar(svg: &mut Svg, most: u64, id: &str) {
     }
     svg.close("linearGradient");
     let fill = format!("url(#{gradient})");
-    svg.empty("rect", &[("x", &left), ("y", &2), ("width", &width), ("height", &10), ("fill", &fill)]);
+    let attributes: [(&str, &dyn std::fmt::Display); 6] =
+        [("class", &"heat"), ("x", &left), ("y", &2), ("width", &width), ("height", &10), ("fill", &fill)];
+    svg.empty("rect", &attributes);
     let mut value = 1;
     while value <= most {
         let at = left + width * if most <= 1 { 0.0 } else { logarithmic(value, most) };

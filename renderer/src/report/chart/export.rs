@@ -61,7 +61,7 @@ impl Chart {
                 Some(panel)
             })
             .collect();
-        json!({ "x": self.x_label, "panels": panels })
+        json!({ "x": self.x_label, "series": self.names[2], "panels": panels })
     }
 }
 

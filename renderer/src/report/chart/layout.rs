@@ -37,8 +37,8 @@ impl Layout {
         let columns = chart.columns.len().max(1);
         let pictures = chart.panels.iter().flatten().any(|plot| matches!(plot, Plot::Picture(_)));
         let width = match columns {
-            1 => 640.0,
-            2 => 880.0,
+            1 => 800.0,
+            2 => 960.0,
             _ => FULL_WIDTH,
         };
         let beside = if pictures { 0.0 } else { TICK_LABEL };

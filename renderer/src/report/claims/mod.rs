@@ -148,7 +148,8 @@ const CLAIMS: [Checked; 8] = [
     (
         7,
         "Persp 64 never has more than 4096 fragments per cluster at one sample a pixel.",
-        "No cluster of any frame of any run of Indi Persp 64 at one sample a pixel has more than 4096 fragments.",
+        "No cluster of any frame of any run of Indi Persp 64 at one sample a pixel has more than 4096 fragments. \
+         Fragments of transparent surfaces count too.",
         limits::fragments,
     ),
     (

@@ -25,7 +25,8 @@ impl<'a> Table<'a> {
             csv::ErrorKind::Io(error) if error.kind() == std::io::ErrorKind::NotFound => {
                 Error::file(path, "is missing beside its run.json: measure anew")
             }
-            kind => Error::file(path, format!("cannot be read: {kind:?}")),
+            csv::ErrorKind::Io(error) => Error::file(path, format!("cannot be read: {error}")),
+            _ => Error::file(path, "is damaged: measure anew"),
         };
         let mut reader = Reader::from_path(path).map_err(cannot)?;
         let header = reader.headers().map_err(cannot)?.clone();

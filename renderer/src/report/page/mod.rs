@@ -132,13 +132,22 @@ fn header(body: &mut String, set: &ResultSet) {
     }
     let started = set.runs.iter().map(|run| run.started.as_str());
     let (first, last) = (started.clone().min().unwrap_or_default(), started.max().unwrap_or_default());
-    let hours = set.runs.iter().map(|run| run.duration_s).sum::<f64>();
-    fact("Measured", &format!("{} runs, {first} to {last}, {} s of work", set.runs.len(), readable(hours)));
+    let seconds = set.runs.iter().map(|run| run.duration_s).sum::<f64>();
+    let [first, last] = [first, last].map(minute);
+    fact(
+        "Measured",
+        &format!("{} runs in {} s, started {first} to {last} UTC", set.runs.len(), readable(seconds)),
+    );
     body.push_str("</dl>\n");
     if devices.len() > 1 {
         body.push_str("<p class=\"warning\">Runs come from several devices: times of different runs do not compare.</p>\n");
     }
     body.push_str("</header>\n");
+}
+
+/// Date and time to the minute of an RFC 3339 moment.
+fn minute(moment: &str) -> String {
+    moment.chars().take(16).map(|c| if c == 'T' { ' ' } else { c }).collect()
 }
 
 fn navigation(body: &mut String, galleries: bool) {

@@ -43,10 +43,10 @@
     line.insertCell().append(value);
   }
 
-  function fill(panel, xLabel, x, y) {
+  function fill(figure, panel, x, y) {
     const index = nearest(panel.x, x);
     const title = document.createElement("b");
-    title.append([panel.title.filter(Boolean).join(", "), `${xLabel} ${readable(panel.x[index])}`].filter(Boolean).join(" · "));
+    title.append([panel.title.filter(Boolean).join(", "), `${figure.x} ${readable(panel.x[index])}`].filter(Boolean).join(" · "));
     const table = document.createElement("table");
     if (panel.cells) {
       const [, top, , height] = panel.frame;
@@ -57,9 +57,9 @@
         if (cells[k] === bin) clusters = cells[k + 1];
         all += cells[k + 1];
       }
-      row(table, null, "bin", panel.labels[bin]);
-      row(table, null, "clusters in it", readable(clusters));
-      row(table, null, "clusters in all", readable(all));
+      row(table, null, figure.series, panel.labels[bin]);
+      row(table, null, "clusters with so many", readable(clusters));
+      row(table, null, "visible clusters", readable(all));
     } else {
       let sum = 0;
       const lines = panel.series.map((series) => {
@@ -84,7 +84,7 @@
       x >= left && x <= left + width && y >= top && y <= top + height;
     const panel = figure.panels.find(within);
     if (!panel) return hide(svg);
-    const frame = fill(panel, figure.x, toX(panel, x), y);
+    const frame = fill(figure, panel, toX(panel, x), y);
     // The same frame is marked in every panel of the figure.
     svg.querySelectorAll(".cross").forEach((cross) => cross.remove());
     for (const other of figure.panels) {
