@@ -25,6 +25,9 @@ pub enum Error {
     /// The program or the driver misbehaved: a validation message, a lost device.
     #[error("{0}")]
     Internal(String),
+    /// Some runs of a sweep failed; the others are complete.
+    #[error("{0}")]
+    Failures(String),
     /// The user interrupted; what was complete is kept.
     #[error("{0}")]
     Interrupted(String),
@@ -41,11 +44,12 @@ impl Error {
         Self::File { path: path.as_ref().to_owned(), message: message.to_string() }
     }
 
-    /// The exit code: 2 for what the user can mend, 130 after an interruption, 1 for anything else.
+    /// The exit code: 2 for what the user can mend, 3 where some runs of a sweep failed, 130 after an interruption, 1 for anything else.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Input(_) | Self::File { .. } | Self::Device(_) => 2,
             Self::Internal(_) => 1,
+            Self::Failures(_) => 3,
             Self::Interrupted(_) => 130,
         }
     }

@@ -34,6 +34,7 @@ pub mod recording;
 pub mod replay;
 pub mod report;
 pub mod scene;
+pub mod sweep;
 pub mod views;
 pub mod vk;
 

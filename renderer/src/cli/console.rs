@@ -84,6 +84,16 @@ impl Progress {
         self.0.set_message(text.to_owned());
     }
 
+    /// There are `steps` steps in all.
+    pub fn set_length(&self, steps: u64) {
+        self.0.set_length(steps);
+    }
+
+    /// `steps` steps need not be done.
+    pub fn skip(&self, steps: u64) {
+        self.0.set_length(self.0.length().unwrap_or(0).saturating_sub(steps));
+    }
+
     /// One step is done.
     pub fn advance(&self) {
         self.0.inc(1);
@@ -135,6 +145,7 @@ fn kind(error: &Error) -> &'static str {
         Error::File { .. } => "file",
         Error::Device(_) => "device",
         Error::Internal(_) => "internal",
+        Error::Failures(_) => "failures",
         Error::Interrupted(_) => "interrupted",
     }
 }

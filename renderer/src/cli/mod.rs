@@ -42,6 +42,7 @@ Exit codes:
   0    done
   1    the program or the driver misbehaved: a validation message, a lost device
   2    something to be mended: a flag, a file, a missing device
+  3    some runs of a replay failed; each left OUT/<run>.error.json, and the others are complete
   130  interrupted; the frame was finished and what was complete is kept
 
 The environment variable RUST_LOG (warn, info, debug, ...) sets how much is logged to standard error.";

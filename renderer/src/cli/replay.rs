@@ -1,18 +1,16 @@
 //! `manylight replay`.
 
 use super::{Console, Interrupt, Progress};
-use crate::config::{Config, Layer, LightsFrom};
-use crate::measure::{FrameCounts, FrameTimes, ViewPixels};
-use crate::output::{
-    DeviceInfo, Manifest, MethodRun, PlannedRun, RUN_FORMAT, RunWriter, Source, Summary, git_revision,
-    planned_runs, prepare_output, rfc3339_utc, write_summary,
-};
-use crate::replay::{Inputs, RunResult, RunSink, Watch, frame_total, replay};
+use crate::config::{Config, Layer};
+use crate::output::{Summary, write_summary};
 use crate::report::write_report;
+use crate::sweep::{Failure, Outcome, Part, Reporter, Selection, Sweep, parts, summary};
 use crate::{Error, Result};
+use serde::Serialize;
+use std::fmt;
 use std::path::PathBuf;
 
-/// Arguments of `replay`: a configuration file, and every field of it as a flag.
+/// Arguments of `replay`: a configuration file, every field of it as a flag, and which runs of it to make.
 #[derive(Debug, clap::Args)]
 #[command(args_override_self = true)]
 pub struct Args {
@@ -26,128 +24,139 @@ pub struct Args {
 
     #[command(flatten)]
     layer: Layer,
+
+    #[command(flatten)]
+    selection: Selection,
+
+    /// Make complete runs again; without it, a run whose inputs, program and device are unchanged is skipped.
+    #[arg(long)]
+    force: bool,
+
+    /// Print the names of the runs, one a line, and make none.
+    #[arg(long, conflicts_with = "summarize")]
+    list_runs: bool,
+
+    /// Make no run: write and print the closing table of the complete runs in the output directory.
+    #[arg(long)]
+    summarize: bool,
 }
 
-/// Replays, writes every run as soon as it is complete, and prints the closing table.
+/// Makes the runs that are asked for and not there yet, and prints the closing table of all that are there.
 pub fn run(args: Args, console: &Console) -> Result<()> {
     let config = Config::resolve(args.config.as_deref(), args.layer)?;
-    let interrupt = Interrupt::install()?;
-    let inputs = Inputs::load(&config)?;
-    let runs = planned_runs(&config);
-    let progress = console.progress(frame_total(&config, &inputs, runs.len())?);
-    prepare_output(&config.out)?;
-    let mut files =
-        Files { config: &config, inputs: &inputs, progress: &progress, writer: None, done: vec![] };
-    let watch = Watch { interrupt: interrupt.flag(), progress: &|| progress.advance() };
-    let outcome = replay(&config, &inputs, &runs, &watch, &mut files);
-    let done = std::mem::take(&mut files.done);
-    drop(files);
-    drop(progress);
-    if done.is_empty() {
-        return outcome;
+    let whole = parts(&config)?;
+    let chosen = args.selection.choose(&whole)?;
+    if args.list_runs {
+        return console.result(&RunNames::of(&chosen));
     }
-    let summary = summary(&done);
-    write_summary(&config.out, &summary)?;
-    outcome.map_err(|error| with_progress(error, done.len(), runs.len()))?;
-    console.result(&summary)?;
+    if args.summarize {
+        let table = summary(&whole)?;
+        if table.rows.is_empty() {
+            return Err(Error::file(&config.out, "holds no complete run of this configuration"));
+        }
+        return close(&config, &table, args.report, console);
+    }
+    let (outcome, ended) = sweep(&chosen, args.force, console)?;
+    let table = summary(&whole)?;
+    if let Err(error) = ended {
+        if !table.rows.is_empty() {
+            write_summary(&config.out, &table)?;
+        }
+        return Err(with_progress(error, &outcome, &chosen));
+    }
+    if !table.rows.is_empty() {
+        close(&config, &table, args.report, console)?;
+    }
+    if outcome.skipped > 0 {
+        console.note(&format!("{} of {} runs were complete and unchanged", outcome.skipped, count(&chosen)));
+    }
+    failures(&outcome, count(&chosen))
+}
+
+/// Runs the sweep; an error that comes before anything was done is the outer one.
+fn sweep(chosen: &[Part], force: bool, console: &Console) -> Result<(Outcome, Result<()>)> {
+    let interrupt = Interrupt::install()?;
+    let bar = Bar { progress: console.progress(0), console };
+    let mut sweep = Sweep::new(chosen, force, interrupt.flag(), &bar)?;
+    bar.progress.set_length(sweep.frames()?);
+    let ended = sweep.run();
+    Ok((std::mem::take(&mut sweep.outcome), ended))
+}
+
+/// Writes and prints the table, and the report where it is asked for.
+fn close(config: &Config, table: &Summary, report: bool, console: &Console) -> Result<()> {
+    write_summary(&config.out, table)?;
+    console.result(table)?;
     console.note(&format!("results are in {}", config.out.display()));
-    if args.report {
+    if report {
         let report = write_report(std::slice::from_ref(&config.out), None)?;
         console.note(&format!("the report is {}", report.page.display()));
     }
     Ok(())
 }
 
+fn count(parts: &[Part]) -> usize {
+    parts.iter().map(|part| part.runs.len()).sum()
+}
+
 /// An interruption that says what was kept.
-fn with_progress(error: Error, done: usize, all: usize) -> Error {
+fn with_progress(error: Error, outcome: &Outcome, chosen: &[Part]) -> Error {
     match error {
-        Error::Interrupted(message) => Error::Interrupted(format!("{message} ({done} of {all})")),
+        Error::Interrupted(message) => {
+            let done = outcome.made + outcome.skipped;
+            Error::Interrupted(format!("{message} ({done} of {})", count(chosen)))
+        }
         other => other,
     }
 }
 
-fn summary(done: &[Done]) -> Summary {
-    let runs: Vec<MethodRun> = done
-        .iter()
-        .map(|done| MethodRun {
-            method: done.run.method,
-            lighting: &done.run.lighting,
-            counts: &done.counts,
-            times: &done.times,
-        })
-        .collect();
-    Summary::from_runs(&runs)
+fn failures(outcome: &Outcome, all: usize) -> Result<()> {
+    let Some(first) = outcome.failed.first() else { return Ok(()) };
+    Err(Error::Failures(format!(
+        "{} of {all} runs failed, each left its <run>.error.json; the first was {}: {}",
+        outcome.failed.len(),
+        first.run,
+        first.error
+    )))
 }
 
-/// A run that is on disk, with what the closing table needs of it.
-struct Done {
-    run: PlannedRun,
-    counts: Vec<FrameCounts>,
-    times: Vec<FrameTimes>,
+/// The bar over all frames of the sweep.
+struct Bar<'a> {
+    progress: Progress,
+    console: &'a Console,
 }
 
-/// Writes runs to files as they come.
-struct Files<'a> {
-    config: &'a Config,
-    inputs: &'a Inputs,
-    progress: &'a Progress,
-    writer: Option<RunWriter>,
-    done: Vec<Done>,
-}
-
-impl Files<'_> {
-    fn writer(&self) -> Result<&RunWriter> {
-        self.writer.as_ref().ok_or_else(|| Error::Internal("a run was not begun".into()))
+impl Reporter for Bar<'_> {
+    fn say(&self, what: &str) {
+        self.progress.say(what);
     }
 
-    fn manifest(&self, run: &PlannedRun, result: &RunResult) -> Manifest {
-        let Inputs { scene, recording, .. } = self.inputs;
-        let device = &result.device;
-        Manifest {
-            format: RUN_FORMAT,
-            version: env!("CARGO_PKG_VERSION"),
-            git_revision: git_revision(),
-            method: run.method.to_string(),
-            lighting: match run.lights {
-                LightsFrom::Rain(lighting) => Some(lighting),
-                LightsFrom::File(_) | LightsFrom::Scene => None,
-            },
-            config: self.config.clone(),
-            scene: Source { name: scene.name.clone(), sha256: scene.sha256.clone() },
-            recording: Source { name: recording.name().to_owned(), sha256: recording.sha256().to_owned() },
-            device: DeviceInfo {
-                name: device.name.clone(),
-                driver: format!("{} {}", device.driver, device.driver_version),
-                api: device.api_version.clone(),
-            },
-            capacities: result.capacities,
-            growth: result.growth.clone(),
-            started: rfc3339_utc(result.started),
-            duration_s: result.duration.as_secs_f64(),
-        }
+    fn advance(&self) {
+        self.progress.advance();
+    }
+
+    fn skip(&self, frames: u64) {
+        self.progress.skip(frames);
+    }
+
+    fn failed(&self, failure: &Failure) {
+        self.console.note(&format!("{} failed: {}", failure.run, failure.error));
     }
 }
 
-impl RunSink for Files<'_> {
-    fn begin(&mut self, run: &PlannedRun) -> Result<()> {
-        self.progress.say(&run.name);
-        self.writer = Some(RunWriter::create(&self.config.out, &run.name)?);
-        Ok(())
-    }
+/// Full names of runs.
+#[derive(Serialize)]
+#[serde(transparent)]
+struct RunNames(Vec<String>);
 
-    fn images(&mut self, frame: u32, views: &[ViewPixels]) -> Result<()> {
-        self.writer()?.write_images(frame, views, None)
+impl RunNames {
+    fn of(parts: &[Part]) -> Self {
+        Self(parts.iter().flat_map(|part| part.runs.iter().map(|run| part.full_name(run))).collect())
     }
+}
 
-    fn finish(&mut self, run: &PlannedRun, mut result: RunResult) -> Result<()> {
-        let manifest = self.manifest(run, &result);
-        let writer = self.writer.take().ok_or_else(|| Error::Internal("a run was not begun".into()))?;
-        writer.finish(&manifest, &result.counts, &result.times)?;
-        // The table needs the totals alone.
-        for clustering in result.counts.iter_mut().flat_map(|counts| &mut counts.clusterings) {
-            clustering.clusters = vec![];
-        }
-        self.done.push(Done { run: run.clone(), counts: result.counts, times: result.times });
-        Ok(())
+impl fmt::Display for RunNames {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0.join("\n"))
     }
 }

@@ -22,6 +22,13 @@ impl FrameRange {
         Ok((self.first..end).step_by(self.step as usize).collect())
     }
 
+    /// Whether `frame` is in the range, given that the recording has it.
+    pub fn contains(&self, frame: u32) -> bool {
+        frame >= self.first
+            && self.end.is_none_or(|end| frame < end)
+            && (frame - self.first).is_multiple_of(self.step.max(1))
+    }
+
     /// Refuses an empty range and a step of zero.
     pub(super) fn check(self) -> Result<Self, String> {
         if self.step == 0 {
@@ -111,6 +118,17 @@ impl ExrFrames {
             Some(frame) => Err(Error::input(format!(
                 "exr: frame {frame} is not among the frames rendered: widen frames, or leave it out"
             ))),
+        }
+    }
+
+    /// The same, without the frames that `rendered` leaves out.
+    #[must_use]
+    pub fn within(&self, rendered: &FrameRange) -> Self {
+        match self {
+            Self::All => Self::All,
+            Self::List(frames) => {
+                Self::List(frames.iter().copied().filter(|frame| rendered.contains(*frame)).collect())
+            }
         }
     }
 

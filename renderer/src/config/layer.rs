@@ -1,7 +1,10 @@
 //! One layer of a configuration: what a file or the flags say, every field optional.
 
 use super::values::{self, de};
-use super::{Config, DisplacedVolume, ExrFrames, FrameRange, Lighting, Marking, Scopes, schema};
+use super::{
+    Config, DisplacedVolume, Exclude, ExrFrames, FrameRange, Lighting, Marking, SceneEntry, Scopes, scenes,
+    schema,
+};
 use crate::lights::Attenuation;
 use crate::methods::MethodSpec;
 use schemars::JsonSchema;
@@ -33,6 +36,18 @@ pub struct Layer {
     #[serde(default, deserialize_with = "de::text")]
     #[schemars(length(min = 1))]
     pub recording: Option<String>,
+
+    /// Several scenes, each with its recording and maybe a resolution and frames of its own, instead of `scene`
+    /// and `recording`; the flag is repeated for several.
+    #[arg(long, value_name = "SCENE=RECORDING[,WxH][,FRAMES]")]
+    #[serde(default, deserialize_with = "de::scenes")]
+    #[schemars(with = "Option<Vec<scenes::RawSceneEntry>>", length(min = 1))]
+    pub scenes: Option<Vec<SceneEntry>>,
+
+    /// What to leave out of the product of scenes, lightings and methods, such as
+    /// `recording=*-vive,lights=1000|10000,method=indi-persp-16`; the flag is repeated for several rules.
+    #[arg(long, value_name = "AXIS=NAME[|NAME],..")]
+    pub exclude: Option<Vec<Exclude>>,
 
     /// Methods, each a run: {indi,encl}-persp-PIXELS, {indi,encl}-ortho-METRES,
     /// {indi,encl}-displ-PIXELS-METRES, or all-lights. The flag is repeated for several.
@@ -136,9 +151,11 @@ pub struct Layer {
 
 impl Config {
     /// Lays a layer over this configuration: what it gives replaces what was there. The three fields that say
-    /// where lights come from count as one.
+    /// where lights come from count as one, and so do those that name scenes.
     pub(super) fn apply(&mut self, layer: Layer) -> Result<(), String> {
         self.apply_lights(&layer)?;
+        self.apply_scenes(&layer)?;
+        set(&mut self.exclude, layer.exclude);
         set(&mut self.scene, layer.scene);
         set(&mut self.recording, layer.recording);
         set(&mut self.methods, layer.methods);
@@ -157,6 +174,26 @@ impl Config {
         set(&mut self.validate, layer.validate);
         set(&mut self.shaders, layer.shaders.map(Some));
         set(&mut self.scopes, layer.scopes);
+        Ok(())
+    }
+
+    /// One scene and several replace each other. A resolution or frames that the layer gives hold for the scenes of
+    /// layers below, whatever those said.
+    fn apply_scenes(&mut self, layer: &Layer) -> Result<(), String> {
+        let one = layer.scene.is_some() || layer.recording.is_some();
+        match &layer.scenes {
+            Some(_) if one => {
+                return Err("scenes excludes scene and recording: give one or the other".into());
+            }
+            Some(scenes) => self.scenes = scenes.clone(),
+            None if one => self.scenes.clear(),
+            None => {
+                for entry in &mut self.scenes {
+                    entry.resolution = entry.resolution.filter(|_| layer.resolution.is_none());
+                    entry.frames = entry.frames.filter(|_| layer.frames.is_none());
+                }
+            }
+        }
         Ok(())
     }
 

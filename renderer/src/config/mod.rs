@@ -3,16 +3,19 @@
 //! Three layers, each over the one before: the built-in defaults, a JSON file, the flags. One declaration,
 //! [`Layer`], is the file's format, its schema and the flags at once.
 
+mod exclude;
 mod file;
 mod frames;
 mod layer;
 pub(crate) mod nearest;
+mod scenes;
 mod schema;
 mod values;
 
 #[cfg(test)]
 mod tests;
 
+pub use exclude::{Counts, Exclude, Names};
 pub use layer::Layer;
 pub use schema::json_schema;
 
@@ -100,6 +103,22 @@ pub enum LightsFrom {
     Scene,
 }
 
+/// One scene of the scene axis.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "scenes::RawSceneEntry")]
+pub struct SceneEntry {
+    /// Built-in name or path of a scene.
+    pub scene: String,
+    /// Bundled name or path of a recording.
+    pub recording: String,
+    /// Width and height of each view, pixels; [`Config::resolution`] where `None`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub resolution: Option<[u32; 2]>,
+    /// Frames to render; [`Config::frames`] where `None`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frames: Option<FrameRange>,
+}
+
 /// One fully resolved run configuration. Serialized, it is a configuration file again.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Config {
@@ -107,6 +126,12 @@ pub struct Config {
     pub scene: String,
     /// Bundled name or path of a recording.
     pub recording: String,
+    /// Several scenes, each with its recording, instead of `scene` and `recording`; empty for that one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub scenes: Vec<SceneEntry>,
+    /// What is left out of the product of scenes, lightings and methods.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub exclude: Vec<Exclude>,
     /// Methods, each a run.
     #[serde(serialize_with = "values::ser::methods")]
     pub methods: Vec<MethodSpec>,
@@ -155,6 +180,8 @@ impl Default for Config {
         Self {
             scene: "street".into(),
             recording: "bistro-vive".into(),
+            scenes: Vec::new(),
+            exclude: Vec::new(),
             methods: tuned_methods(),
             lights: vec![Lighting::with_count(1000)],
             lights_file: None,
@@ -200,9 +227,15 @@ impl Config {
         if let Some(path) = file {
             config.apply(file::read(path)?).map_err(|message| Error::file(path, message))?;
             config.check().map_err(|error| Error::file(path, error))?;
+            config.check_excludes().map_err(|error| Error::file(path, error))?;
         }
+        let own_rules = flags.exclude.is_some();
         config.apply(flags).map_err(Error::Input)?;
         config.check()?;
+        // Flags may narrow an axis that the file has rules for: those may then match nothing.
+        if own_rules {
+            config.check_excludes()?;
+        }
         Ok(config)
     }
 
@@ -214,6 +247,12 @@ impl Config {
         let at = |field: &'static str| move |message: String| Error::Input(format!("{field}: {message}"));
         values::check_text(self.scene.clone()).map_err(at("scene"))?;
         values::check_text(self.recording.clone()).map_err(at("recording"))?;
+        for entry in &self.scenes {
+            entry.clone().check().map_err(at("scenes"))?;
+        }
+        for rule in &self.exclude {
+            rule.check().map_err(at("exclude"))?;
+        }
         values::check_methods(self.methods.clone()).map_err(at("methods"))?;
         values::check_lights(self.lights.clone()).map_err(at("lights"))?;
         for lighting in &self.lights {
@@ -233,6 +272,34 @@ impl Config {
         }
         self.device.clone().map_or(Ok(String::new()), values::check_text).map_err(at("device"))?;
         Ok(())
+    }
+
+    /// Refuses rules that leave nothing out: most are misspelt.
+    fn check_excludes(&self) -> Result<()> {
+        let scenes = self.scene_entries();
+        let sources = self.lights_from();
+        let matched = |rule: &Exclude| {
+            scenes.iter().any(|scene| {
+                sources
+                    .iter()
+                    .any(|lights| self.methods.iter().any(|method| rule.matches(scene, lights, method)))
+            })
+        };
+        match self.exclude.iter().find(|rule| !matched(rule)) {
+            Some(rule) => Err(Error::Input(format!(
+                "exclude: the rule {rule} matches no run: mend its names, or leave it out"
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// The scene axis: `scenes`, or the one that `scene` and `recording` name.
+    pub fn scene_entries(&self) -> Vec<SceneEntry> {
+        if !self.scenes.is_empty() {
+            return self.scenes.clone();
+        }
+        let (scene, recording) = (self.scene.clone(), self.recording.clone());
+        vec![SceneEntry { scene, recording, resolution: None, frames: None }]
     }
 
     /// Where lights come from: every lighting of the rain, or the file, or the scene.

@@ -1,7 +1,7 @@
 //! Single values: how flags spell them, what is in range, how JSON carries them. Each rule is stated once
 //! here and serves flags and files alike.
 
-use super::{Lighting, LightsFrom};
+use super::{Lighting, LightsFrom, SceneEntry, scenes};
 use crate::lights::Attenuation;
 use crate::methods::MethodSpec;
 use schemars::JsonSchema;
@@ -261,6 +261,10 @@ pub(super) mod de {
 
     pub fn lights<'de, D: Deserializer<'de>>(d: D) -> Result<Option<Vec<Lighting>>, D::Error> {
         checked(d, check_lights)
+    }
+
+    pub fn scenes<'de, D: Deserializer<'de>>(d: D) -> Result<Option<Vec<SceneEntry>>, D::Error> {
+        checked(d, scenes::check_given)
     }
 
     pub fn resolution<'de, D: Deserializer<'de>>(d: D) -> Result<Option<[u32; 2]>, D::Error> {

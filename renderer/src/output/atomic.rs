@@ -22,7 +22,12 @@ fn replace_file(
     parent: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> io::Result<()> {
-    let temporary = builder(".manylight-", 0o666).tempfile_in(parent)?;
+    let temporary = locked(|| {
+        let temporary = builder(PREFIX, 0o666).tempfile_in(parent)?;
+        let lock = temporary.as_file().try_clone()?;
+        Ok((temporary, lock))
+    })?;
+    let (temporary, _lock) = temporary;
     fill(temporary.as_file().try_clone()?, write)?;
     temporary.persist(path).map(drop).map_err(|error| error.error)
 }
@@ -46,6 +51,8 @@ pub(super) fn make_directory(path: &Path) -> Result<()> {
 pub(super) struct StagedDirectory {
     target: PathBuf,
     staged: TempDir,
+    /// Tells the living from the abandoned: see [`remove_abandoned`].
+    _lock: Option<File>,
 }
 
 impl StagedDirectory {
@@ -69,9 +76,8 @@ impl StagedDirectory {
                 "exists and is no directory: move it, or choose another output directory",
             ));
         }
-        let staged =
-            builder(".manylight-", 0o777).tempdir_in(parent).map_err(|error| cannot_write(parent, &error))?;
-        Ok(Self { target: target.to_owned(), staged })
+        let (staged, lock) = directory_in(parent).map_err(|error| cannot_write(parent, &error))?;
+        Ok(Self { target: target.to_owned(), staged, _lock: lock })
     }
 
     /// Where to write until [`Self::commit`].
@@ -81,19 +87,22 @@ impl StagedDirectory {
 
     /// Puts the directory in its place; an older one there is deleted only after that.
     pub fn commit(self) -> Result<()> {
-        let Self { target, staged } = self;
-        let swap = || -> io::Result<Option<TempDir>> {
+        let Self { target, staged, _lock } = self;
+        let swap = || -> io::Result<Option<(TempDir, Option<File>)>> {
+            sync_directory(staged.path())?;
             if fs::symlink_metadata(&target).is_err() {
                 fs::rename(staged.path(), &target)?;
+                sync_directory(parent_of(&target))?;
                 return Ok(None);
             }
-            let old = builder(".manylight-old-", 0o777).tempdir_in(parent_of(&target))?;
-            let parked = old.path().join("old");
+            let old = directory_in(parent_of(&target))?;
+            let parked = old.0.path().join("old");
             fs::rename(&target, &parked)?;
             fs::rename(staged.path(), &target).inspect_err(|_| {
                 // Back to how it was; the first failure is the one to report.
                 let _ = fs::rename(&parked, &target);
             })?;
+            sync_directory(parent_of(&target))?;
             Ok(Some(old))
         };
         let old = swap().map_err(|error| cannot_write(&target, &error))?;
@@ -102,6 +111,62 @@ impl StagedDirectory {
         drop(old);
         Ok(())
     }
+}
+
+/// Every temporary name begins so.
+const PREFIX: &str = ".manylight-";
+/// And ends so.
+const SUFFIX: &str = ".tmp";
+
+/// A temporary directory in `parent`, locked where the system can.
+fn directory_in(parent: &Path) -> io::Result<(TempDir, Option<File>)> {
+    let made = || builder(PREFIX, 0o777).tempdir_in(parent);
+    // Elsewhere a directory cannot be opened, and what was abandoned stays.
+    if !cfg!(unix) {
+        return Ok((made()?, None));
+    }
+    let (directory, lock) = locked(|| {
+        let directory = made()?;
+        let lock = File::open(directory.path())?;
+        Ok((directory, lock))
+    })?;
+    Ok((directory, Some(lock)))
+}
+
+/// Makes something temporary and takes its lock, again until it has both: between the two, [`remove_abandoned`] of
+/// another process may have removed it.
+fn locked<T: AsRef<Path>>(make: impl Fn() -> io::Result<(T, File)>) -> io::Result<(T, File)> {
+    loop {
+        let (made, lock) = make()?;
+        // A file system without locks has no `remove_abandoned` either.
+        let has_locks = lock.lock_shared().is_ok();
+        if !has_locks || made.as_ref().exists() {
+            return Ok((made, lock));
+        }
+    }
+}
+
+/// Removes what processes that were killed left in `directory`: everything under a temporary name whose lock nobody
+/// holds. What living processes, other shards among them, are writing stays.
+pub fn remove_abandoned(directory: &Path) {
+    let Ok(entries) = fs::read_dir(directory) else { return };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        if !name.to_str().is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX)) {
+            continue;
+        }
+        let path = entry.path();
+        let Ok(file) = File::open(&path) else { continue };
+        if file.try_lock().is_ok() {
+            // What cannot be removed is only in nobody's way.
+            let _ = if path.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
+        }
+    }
+}
+
+/// Makes the names in a directory outlast a power cut, where the system can.
+fn sync_directory(path: &Path) -> io::Result<()> {
+    if cfg!(unix) { File::open(path)?.sync_all() } else { Ok(()) }
 }
 
 /// An error that says which file cannot be written, and why.
@@ -122,7 +187,7 @@ fn parent_of(path: &Path) -> &Path {
 /// Temporary names for results, with the permissions that results have (`mode` less the user's mask).
 fn builder(prefix: &str, mode: u32) -> tempfile::Builder<'_, 'static> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(prefix).suffix(".tmp");
+    builder.prefix(prefix).suffix(SUFFIX);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
     #[cfg(not(unix))]
@@ -216,6 +281,23 @@ mod tests {
         let error = StagedDirectory::create(&target.join("thesis.doc"), "run.json").unwrap_err().to_string();
         assert!(error.contains("is no directory"), "{error}");
         assert_eq!(names(dir.path()), ["run"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_was_abandoned_goes_and_what_is_being_written_stays() {
+        let dir = tempfile::tempdir().unwrap();
+        let living = StagedDirectory::create(&dir.path().join("run"), "run.json").unwrap();
+        let dead = dir.path().join(".manylight-dead.tmp");
+        fs::create_dir(&dead).unwrap();
+        fs::write(dead.join("half"), "x").unwrap();
+        fs::write(dir.path().join(".manylight-file.tmp"), "x").unwrap();
+        fs::write(dir.path().join("other.tmp"), "x").unwrap();
+        remove_abandoned(dir.path());
+        let living_name = living.path().file_name().unwrap().to_str().unwrap().to_owned();
+        assert_eq!(names(dir.path()), [living_name, "other.tmp".into()]);
+        living.commit().unwrap();
+        assert_eq!(names(dir.path()), ["other.tmp", "run"]);
     }
 
     #[cfg(unix)]

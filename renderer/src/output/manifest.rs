@@ -22,11 +22,13 @@ pub struct Manifest {
     pub version: &'static str,
     /// [`git_revision`].
     pub git_revision: &'static str,
+    /// Hexadecimal SHA-256 over all that the run's results depend on; a run with the same is not made again.
+    pub fingerprint: String,
     /// The method's name.
     pub method: String,
     /// Lighting of the rain; `None` where lights come from a file or the scene.
     pub lighting: Option<Lighting>,
-    /// The fully resolved configuration; it can be replayed as it is.
+    /// The fully resolved configuration of this run alone; it can be replayed as it is.
     pub config: Config,
     /// The scene drawn.
     pub scene: Source,

@@ -5,12 +5,15 @@
 //!
 //! ```text
 //! OUT/
-//!   summary.csv            one row a method and lighting
+//!   summary.csv            one row a method and lighting (and scene, where there are several)
 //!   <run>/                 named by method (and lighting, where there are several)
 //!     run.json             how the run came to be
 //!     frames.csv  clusterings.csv  histograms.csv  timings.csv
 //!     frames/NNNNNN.exr  NNNNNN.png  NNNNNN_lights.png  NNNNNN_clusters.png
+//!   <run>.error.json       why a run failed, until it succeeds
 //! ```
+//!
+//! Of several scenes each has a directory `OUT/<scene>[-<recording>]/` in which its runs lie.
 
 mod atomic;
 mod color;
@@ -18,6 +21,7 @@ mod image_exr;
 mod manifest;
 mod preview;
 mod run;
+mod saved;
 mod stages;
 mod summary;
 mod tables;
@@ -27,11 +31,12 @@ mod testing;
 #[cfg(test)]
 mod tests;
 
-pub use atomic::write_whole;
+pub use atomic::{remove_abandoned, write_whole};
 pub use color::{cluster_color, cubehelix, tone_map};
 pub use image_exr::write_exr;
 pub use manifest::{DeviceInfo, Manifest, RUN_FORMAT, Source, git_revision, rfc3339_utc};
 pub use preview::{cluster_preview, image_preview, light_preview, write_previews};
 pub use run::{PlannedRun, RunWriter, planned_runs, prepare_output, write_summary};
+pub use saved::{is_complete, saved_fingerprint, saved_means};
 pub use stages::{GpuTimes, StageMinima};
-pub use summary::{MethodRun, Ratios, Summary, SummaryRow, Values};
+pub use summary::{MethodRun, Ratios, RunMeans, Summary, SummaryRow, Values};

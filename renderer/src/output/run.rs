@@ -15,7 +15,7 @@ use std::io::Write;
 use std::path::Path;
 
 /// By this file a run directory is known.
-const MANIFEST: &str = "run.json";
+pub(super) const MANIFEST: &str = "run.json";
 
 /// One run: a method under one lighting.
 #[derive(Debug, Clone, PartialEq)]

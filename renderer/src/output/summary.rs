@@ -57,9 +57,27 @@ pub struct Ratios {
     pub total_ms: Option<f64>,
 }
 
-/// One method under one lighting.
+/// One run as the table takes it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunMeans {
+    /// The scene's directory, empty where there is one scene.
+    pub scene: String,
+    /// How lights were found.
+    pub method: MethodSpec,
+    /// Name of the lighting: see [`super::PlannedRun::lighting`].
+    pub lighting: String,
+    /// How many frames the means are over.
+    pub frames: usize,
+    /// The means.
+    pub means: Values,
+}
+
+/// One method under one lighting in one scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SummaryRow {
+    /// The scene's directory, empty where there is one scene.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub scene: String,
     /// The method's name.
     pub method: String,
     /// The lighting's name.
@@ -83,37 +101,58 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Sums up runs. The reference of a lighting is its first Indi Persp, else its first method.
+    /// Sums up runs of one scene.
     pub fn from_runs(runs: &[MethodRun<'_>]) -> Self {
-        let means: Vec<Values> = runs.iter().map(Values::mean).collect();
-        let rows = runs.iter().zip(&means).map(|(run, &mean)| {
-            let reference = reference(runs, run.lighting);
+        let means = runs.iter().map(|run| RunMeans {
+            scene: String::new(),
+            method: run.method,
+            lighting: run.lighting.to_owned(),
+            frames: run.counts.len(),
+            means: Values::mean(run),
+        });
+        Self::from_means(&means.collect::<Vec<_>>())
+    }
+
+    /// Sums up runs. The reference of a scene's lighting is its first Indi Persp, else its first method.
+    pub fn from_means(runs: &[RunMeans]) -> Self {
+        let rows = runs.iter().map(|run| {
+            let reference = &runs[reference(runs, run)];
             SummaryRow {
+                scene: run.scene.clone(),
                 method: run.method.to_string(),
-                lighting: run.lighting.to_owned(),
-                frames: run.counts.len(),
-                means: mean,
-                reference: runs[reference].method.to_string(),
-                ratios: Ratios::of(&mean, &means[reference]),
+                lighting: run.lighting.clone(),
+                frames: run.frames,
+                means: run.means,
+                reference: reference.method.to_string(),
+                ratios: Ratios::of(&run.means, &reference.means),
             }
         });
         Self { rows: rows.collect() }
     }
 
-    /// Writes the table as CSV: means, then the reference, then ratios.
+    /// Whether rows are told apart by their scene.
+    fn several_scenes(&self) -> bool {
+        self.rows.iter().any(|row| !row.scene.is_empty())
+    }
+
+    /// Writes the table as CSV: means, then the reference, then ratios; where there are several scenes, the scene
+    /// before all.
     ///
     /// # Errors
     /// The writer fails.
     pub fn write_csv(&self, out: impl Write) -> io::Result<()> {
         let mut csv = csv::Writer::from_writer(out);
-        csv.write_record(CSV_HEADER)?;
+        let several = self.several_scenes();
+        let scene = |name: &str| several.then(|| name.to_owned());
+        csv.write_record(scene("scene").into_iter().chain(CSV_HEADER.map(str::to_owned)))?;
         for row in &self.rows {
             let (means, ratios) = (&row.means, &row.ratios);
             let head = [row.method.clone(), row.lighting.clone(), row.frames.to_string()];
             let counts = [means.visible_clusters, means.light_indices, means.lighting_computations];
             let times = [means.clustering_ms, means.shading_ms, means.total_ms];
-            let cells = head
+            let cells = scene(&row.scene)
                 .into_iter()
+                .chain(head)
                 .chain(counts.map(|count| format!("{count:.3}")))
                 .chain(times.map(optional_ms))
                 .chain([row.reference.clone()])
@@ -143,10 +182,10 @@ const CSV_HEADER: [&str; 16] = [
     "total_ms_ratio",
 ];
 
-/// Index of the run that the ratios under a lighting are to; some run has that lighting.
-fn reference(runs: &[MethodRun<'_>], lighting: &str) -> usize {
-    let find = |wanted: &dyn Fn(&MethodRun<'_>) -> bool| {
-        runs.iter().position(|run| run.lighting == lighting && wanted(run))
+/// Index of the run that the ratios of `of` are to.
+fn reference(runs: &[RunMeans], of: &RunMeans) -> usize {
+    let find = |wanted: &dyn Fn(&RunMeans) -> bool| {
+        runs.iter().position(|run| run.scene == of.scene && run.lighting == of.lighting && wanted(run))
     };
     find(&|run| is_indi_persp(&run.method)).or_else(|| find(&|_| true)).unwrap_or(0)
 }
@@ -180,7 +219,7 @@ impl Values {
 }
 
 /// The mean of the values that are there.
-fn mean(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
+pub(super) fn mean(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
     let (sum, count) = values.flatten().fold((0.0, 0_u32), |(sum, count), value| (sum + value, count + 1));
     (count > 0).then(|| sum / f64::from(count))
 }
@@ -222,7 +261,9 @@ impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut table = Table::new();
         table.load_preset(TABLE_LINES).set_content_arrangement(ContentArrangement::Disabled);
-        table.set_header([
+        let several = self.several_scenes();
+        let scene = |name: &str| several.then(|| name.to_owned());
+        let header = [
             "method",
             "lights",
             "visible\nclusters",
@@ -231,13 +272,15 @@ impl fmt::Display for Summary {
             "clustering\nms",
             "shading\nms",
             "total\nms",
-        ]);
+        ];
+        table.set_header(scene("scene").into_iter().chain(header.map(str::to_owned)));
         for row in &self.rows {
             let values = row.means.list().into_iter().zip(row.ratios.list()).enumerate();
             let cells = values.map(|(column, (value, ratio))| cell(value, ratio, column >= 3));
-            table.add_row([row.method.clone(), row.lighting.clone()].into_iter().chain(cells));
+            let head = scene(&row.scene).into_iter().chain([row.method.clone(), row.lighting.clone()]);
+            table.add_row(head.chain(cells));
         }
-        for column in table.column_iter_mut().skip(1) {
+        for column in table.column_iter_mut().skip(if several { 2 } else { 1 }) {
             column.set_cell_alignment(CellAlignment::Right);
         }
         for line in table.lines() {

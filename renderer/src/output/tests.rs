@@ -179,6 +179,7 @@ fn manifest() -> Manifest {
         format: RUN_FORMAT,
         version: env!("CARGO_PKG_VERSION"),
         git_revision: git_revision(),
+        fingerprint: "0f".into(),
         method: "encl-ortho-4".into(),
         lighting: Some(Lighting::with_count(1000)),
         config: Config::default(),

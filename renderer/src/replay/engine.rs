@@ -38,6 +38,32 @@ pub struct Engine {
     pub growth: Vec<GrowthEvent>,
 }
 
+fn variant(config: &Config, method: MethodSpec, counting: bool) -> Variant {
+    Variant {
+        method,
+        samples: config.msaa,
+        marking: config.marking,
+        attenuation: config.attenuation,
+        counting,
+    }
+}
+
+fn sizes(
+    config: &Config,
+    method: MethodSpec,
+    plans: &[FramePlan],
+    (lights, capacities, counting): (u32, Capacities, bool),
+) -> ClusteringSizes {
+    let none = Capacities { visible_clusters: 0, light_indices: 0 };
+    ClusteringSizes {
+        clusters: plans.iter().flat_map(|p| &p.grids).map(|g| g.cluster_count()).max().unwrap_or(0),
+        lights,
+        capacities: if method == MethodSpec::AllLights { none } else { capacities },
+        counting,
+        pixels: u64::from(config.resolution[0]) * u64::from(config.resolution[1]),
+    }
+}
+
 /// Commands recorded beside a frame's own.
 pub type Commands<'a> = dyn FnMut(&mut Recorder, &Frame) + 'a;
 
@@ -53,25 +79,7 @@ impl Engine {
         plans: &[FramePlan],
         (lights, capacities, counting): (u32, Capacities, bool),
     ) -> Result<Self> {
-        let variant = Variant {
-            method,
-            samples: config.msaa,
-            marking: config.marking,
-            attenuation: config.attenuation,
-            counting,
-        };
-        let clustered = method != MethodSpec::AllLights;
-        let sizes = ClusteringSizes {
-            clusters: plans.iter().flat_map(|p| &p.grids).map(|g| g.cluster_count()).max().unwrap_or(0),
-            lights,
-            capacities: if clustered {
-                capacities
-            } else {
-                Capacities { visible_clusters: 0, light_indices: 0 }
-            },
-            counting,
-            pixels: u64::from(config.resolution[0]) * u64::from(config.resolution[1]),
-        };
+        let sizes = sizes(config, method, plans, (lights, capacities, counting));
         sizes.check(&session.context.limits)?;
         let light_bytes = (u64::from(lights) * size_of::<LightData>() as u64).max(16);
         let staging = || {
@@ -86,7 +94,7 @@ impl Engine {
             timed_scopes: if config.scopes == Scopes::All { usize::MAX } else { 1 },
             staging: [staging()?, staging()?],
             lights: device_buffer(&session.context, "lights", light_bytes)?,
-            pipelines: session.store.pipelines(&variant)?,
+            pipelines: session.store.pipelines(&variant(config, method, counting))?,
             sizes,
             staged: Vec::with_capacity(lights as usize),
             clusterings: vec![],
@@ -95,6 +103,18 @@ impl Engine {
         };
         engine.make_clusterings(session)?;
         Ok(engine)
+    }
+
+    /// Whether [`Self::new`] would find its shaders in order and its buffers within the device's limits.
+    pub fn check(
+        session: &mut Session,
+        config: &Config,
+        method: MethodSpec,
+        plans: &[FramePlan],
+        mode: (u32, Capacities, bool),
+    ) -> Result<()> {
+        sizes(config, method, plans, mode).check(&session.context.limits)?;
+        session.store.pipelines(&variant(config, method, mode.2)).map(drop)
     }
 
     /// What the buffers hold now.

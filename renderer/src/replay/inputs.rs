@@ -24,9 +24,16 @@ impl Inputs {
     /// # Errors
     /// A missing or broken file; a scene without point lights where they were asked for.
     pub fn load(config: &Config) -> Result<Self> {
-        let recording = recording::load(&config.recording)?;
+        Self::load_with(config, recording::load(&config.recording)?, None)
+    }
+
+    /// The same, with the recording at hand and maybe the scene.
+    ///
+    /// # Errors
+    /// As [`Self::load`].
+    pub fn load_with(config: &Config, recording: Recording, scene: Option<Scene>) -> Result<Self> {
         let static_file = config.lights_file.as_deref().map(lights::load_csv).transpose()?;
-        let scene = load_scene(&config.scene)?;
+        let scene = scene.map_or_else(|| load_scene(&config.scene), Ok)?;
         let static_lights = match static_file {
             Some(lights) => Some(lights),
             None if config.scene_lights => Some(scene_lights(&scene)?),
@@ -46,6 +53,20 @@ impl Inputs {
                 Ok(LightSource::Rain(Rain::new(&file.rain, lighting, file.dt_s, 0)?))
             }
             (_, Some(lights)) => Ok(LightSource::Static(lights.clone())),
+            (_, None) => Err(Error::Internal("static lights were not loaded".into())),
+        }
+    }
+}
+
+impl Inputs {
+    /// How many lights there are.
+    ///
+    /// # Errors
+    /// They were not loaded.
+    pub fn light_count(&self, lights: &config::LightsFrom) -> Result<u32> {
+        match (lights, &self.static_lights) {
+            (config::LightsFrom::Rain(lighting), _) => Ok(lighting.count),
+            (_, Some(lights)) => Ok(lights.len() as u32),
             (_, None) => Err(Error::Internal("static lights were not loaded".into())),
         }
     }

@@ -10,15 +10,19 @@ mod counted;
 mod engine;
 pub mod inputs;
 mod plan;
+mod player;
 mod session;
 mod temporal;
 
 pub use inputs::Inputs;
 pub use plan::{FramePlan, plan_frames};
+pub use player::{Player, device_info};
+pub use session::shader_library;
 
 use crate::config::Config;
 use crate::measure::{Capacities, ClusterLists, FrameCounts, FrameTimes, GrowthEvent, ViewPixels};
 use crate::output::PlannedRun;
+use crate::recording::Recording;
 use crate::vk::DeviceInfo;
 use crate::{Error, Result};
 use engine::Engine;
@@ -85,8 +89,8 @@ pub struct RunResult {
 ///
 /// # Errors
 /// A frame range outside the recording.
-pub fn frame_total(config: &Config, inputs: &Inputs, runs: usize) -> Result<u64> {
-    let frames = config.frame_numbers(inputs.recording.frame_count())?.len() as u64;
+pub fn frame_total(config: &Config, recording: &Recording, runs: usize) -> Result<u64> {
+    let frames = config.frame_numbers(recording.frame_count())?.len() as u64;
     Ok(frames * runs as u64 * (u64::from(config.runs) + 1))
 }
 
@@ -106,18 +110,11 @@ pub fn replay(
     for run in runs {
         plan_frames(config, &inputs.recording, &run.method)?;
     }
-    let views = inputs.recording.view_names().len();
-    let mut session = Session::new(config, &inputs.scene, views)?;
+    let mut player = Player::new(config, inputs)?;
     for run in runs {
-        sink.begin(run)?;
-        let result = replay_run(config, inputs, &mut session, run, (watch, sink))?;
-        session.context.check_validation()?;
-        sink.finish(run, result)?;
+        player.play(run, watch, sink)?;
     }
-    // What the end of the device says counts too.
-    let log = session.context.validation_log();
-    drop(session);
-    log.check()
+    player.finish()
 }
 
 fn replay_run(

@@ -144,8 +144,7 @@ impl Session {
         pipelines::check_device(&context, config.msaa, config.marking)?;
         check_resolution(&context, config.resolution)?;
         let layouts = Arc::new(Layouts::new(&context)?);
-        let include = ("generated/gpu_interface.glsl".to_owned(), gpu_interface::glsl());
-        let shaders = ShaderLibrary::new(config.shaders.as_deref(), vec![include])?;
+        let shaders = shader_library(config)?;
         let batches = Batches::new(scene);
         let gpu_scene = GpuScene::new(&context, &layouts, scene, &batches)?;
         let depth_sets = DescriptorSets::new(
@@ -173,6 +172,12 @@ impl Session {
             context,
         })
     }
+}
+
+/// The shader sources that the config chooses.
+pub fn shader_library(config: &Config) -> Result<ShaderLibrary> {
+    let include = ("generated/gpu_interface.glsl".to_owned(), gpu_interface::glsl());
+    ShaderLibrary::new(config.shaders.as_deref(), vec![include])
 }
 
 fn check_resolution(context: &Context, [width, height]: [u32; 2]) -> Result<()> {

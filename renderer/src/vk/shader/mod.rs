@@ -36,6 +36,14 @@ impl ShaderLibrary {
         Ok(Self { sources, compiled: Mutex::default(), disk: DiskCache::of_user() })
     }
 
+    /// Hex SHA-256 over all sources.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`] when the directory cannot be read.
+    pub fn sources_sha256(&self) -> Result<String> {
+        self.sources.sha256()
+    }
+
     /// Keeps results in `directory` instead of the user's cache, or, with `None`, in memory alone.
     pub fn with_cache(self, directory: Option<PathBuf>) -> Self {
         Self { disk: directory.map(DiskCache::new), ..self }

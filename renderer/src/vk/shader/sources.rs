@@ -1,6 +1,7 @@
 //! Where shader text comes from, and the files one shader reaches through its includes.
 
 use crate::{Error, Result};
+use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -26,6 +27,32 @@ impl Sources {
                 generated: generated.into_iter().collect(),
             }),
         }
+    }
+
+    /// Hex SHA-256 over the names and texts of all sources.
+    ///
+    /// # Errors
+    /// [`Error::File`] when the directory cannot be read.
+    pub fn sha256(&self) -> Result<String> {
+        let mut files: BTreeMap<String, Vec<u8>> = match &self.directory {
+            Some(directory) => {
+                let mut files = BTreeMap::new();
+                read_below(directory, "", &mut files)?;
+                files
+            }
+            None => {
+                EMBEDDED.iter().map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec())).collect()
+            }
+        };
+        files.extend(self.generated.iter().map(|(name, text)| (name.clone(), text.clone().into_bytes())));
+        let mut hash = Sha256::new();
+        for (name, text) in &files {
+            for part in [name.as_bytes(), text] {
+                hash.update((part.len() as u64).to_le_bytes());
+                hash.update(part);
+            }
+        }
+        Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
     }
 
     /// The text of `name`, a normal path below the root; `None` when there is no such source.
@@ -99,6 +126,22 @@ impl Sources {
             None => Error::Internal(format!("shader {root} is not embedded in the program")),
         }
     }
+}
+
+/// Reads every file below a directory, by its path with slashes.
+fn read_below(directory: &Path, prefix: &str, files: &mut BTreeMap<String, Vec<u8>>) -> Result<()> {
+    let failed = |error| Error::file(directory, error);
+    for entry in std::fs::read_dir(directory).map_err(failed)? {
+        let entry = entry.map_err(failed)?;
+        let (path, name) = (entry.path(), format!("{prefix}{}", entry.file_name().to_string_lossy()));
+        if path.is_dir() {
+            read_below(&path, &format!("{name}/"), files)?;
+        } else {
+            let text = std::fs::read(&path).map_err(|error| Error::file(&path, error))?;
+            files.insert(name, text);
+        }
+    }
+    Ok(())
 }
 
 /// One shader with all files it can include, by normal path: what the compiler sees, and nothing else.

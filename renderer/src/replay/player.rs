@@ -1,0 +1,81 @@
+//! A device with one scene on it, on which runs are played one after the other.
+
+use super::engine::Engine;
+use super::session::Session;
+use super::{Inputs, RunSink, Watch, plan_frames, replay_run};
+use crate::Result;
+use crate::config::Config;
+use crate::measure::Capacities;
+use crate::output::PlannedRun;
+use crate::vk::{Context, DeviceInfo, DeviceOptions};
+
+/// The device that `config` chooses.
+///
+/// # Errors
+/// There is none, or it lacks something.
+pub fn device_info(config: &Config) -> Result<DeviceInfo> {
+    let options = DeviceOptions { device: config.device.clone(), validate: config.validate };
+    Ok(Context::new(&options)?.info.clone())
+}
+
+/// Plays runs of one scene at one resolution.
+pub struct Player<'a> {
+    config: &'a Config,
+    inputs: &'a Inputs,
+    session: Session,
+}
+
+impl<'a> Player<'a> {
+    /// Opens the device and brings the scene there.
+    ///
+    /// # Errors
+    /// The device is missing, lacks something, or cannot hold the scene.
+    pub fn new(config: &'a Config, inputs: &'a Inputs) -> Result<Self> {
+        let session = Session::new(config, &inputs.scene, inputs.recording.view_names().len())?;
+        Ok(Self { config, inputs, session })
+    }
+
+    /// Whether the device can play a run: its shaders compile, its buffers fit.
+    ///
+    /// # Errors
+    /// They do not.
+    pub fn check(&mut self, run: &PlannedRun) -> Result<()> {
+        let plans = plan_frames(self.config, &self.inputs.recording, &run.method)?;
+        let lights = self.inputs.light_count(&run.lights)?;
+        let capacities = Capacities {
+            visible_clusters: self.config.visible_cluster_capacity,
+            light_indices: self.config.light_index_capacity,
+        };
+        for counting in [true, false] {
+            Engine::check(
+                &mut self.session,
+                self.config,
+                run.method,
+                &plans,
+                (lights, capacities, counting),
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Plays one run into the sink. After an error the device may be lost: go on with another player.
+    ///
+    /// # Errors
+    /// As [`super::replay`].
+    pub fn play(&mut self, run: &PlannedRun, watch: &Watch, sink: &mut dyn RunSink) -> Result<()> {
+        sink.begin(run)?;
+        let result = replay_run(self.config, self.inputs, &mut self.session, run, (watch, sink))?;
+        self.session.context.check_validation()?;
+        sink.finish(run, result)
+    }
+
+    /// Lets the device go; what it says at its end counts too.
+    ///
+    /// # Errors
+    /// A validation message.
+    pub fn finish(self) -> Result<()> {
+        let log = self.session.context.validation_log();
+        drop(self.session);
+        log.check()
+    }
+}

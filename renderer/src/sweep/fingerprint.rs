@@ -1,0 +1,88 @@
+//! What a run's results depend on, in one hash.
+
+use crate::config::Config;
+use crate::output::{DeviceInfo, RUN_FORMAT, git_revision};
+use crate::replay::Inputs;
+use crate::{Error, Result};
+use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
+
+/// What all runs of one scene share of what their results depend on.
+pub struct Fingerprint {
+    shared: Value,
+}
+
+/// Fields of the configuration that choose what the rest of the fingerprint holds by content, or that results do not
+/// depend on.
+const LEFT_OUT: [&str; 4] = ["out", "device", "shaders", "lights_file"];
+
+impl Fingerprint {
+    /// Takes the content of scene, recording, static lights and shaders, the program, and the device.
+    ///
+    /// # Errors
+    /// The file of static lights cannot be read any more.
+    pub fn new(config: &Config, inputs: &Inputs, device: &DeviceInfo, shaders: &str) -> Result<Self> {
+        let lights = match &config.lights_file {
+            Some(path) => sha256(&std::fs::read(path).map_err(|error| Error::file(path, error))?),
+            None => String::new(),
+        };
+        let shared = json!({
+            "format": RUN_FORMAT,
+            "version": env!("CARGO_PKG_VERSION"),
+            "git_revision": git_revision(),
+            "scene": inputs.scene.sha256,
+            "recording": inputs.recording.sha256(),
+            "lights_file": lights,
+            "shaders": shaders,
+            "device": device,
+        });
+        Ok(Self { shared })
+    }
+
+    /// The fingerprint of the run that `config` makes and no other: hexadecimal SHA-256.
+    ///
+    /// # Errors
+    /// The configuration is not JSON.
+    pub fn of(&self, config: &Config) -> Result<String> {
+        let not_json = |error| Error::Internal(format!("the configuration is not JSON: {error}"));
+        let mut config = serde_json::to_value(config).map_err(not_json)?;
+        if let Some(fields) = config.as_object_mut() {
+            fields.retain(|name, _| !LEFT_OUT.contains(&name.as_str()));
+        }
+        let all = json!({ "shared": self.shared, "config": config });
+        Ok(sha256(all.to_string().as_bytes()))
+    }
+}
+
+fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::{ExrFrames, Lighting};
+
+    #[test]
+    fn it_changes_with_what_matters_alone() {
+        let of = |device: &str, config: &Config| {
+            Fingerprint { shared: json!({ "device": device }) }.of(config).unwrap()
+        };
+        let base = Config::default();
+        let same = of("a", &base);
+        assert_eq!(
+            of("a", &Config { out: "elsewhere".into(), device: Some("0".into()), ..base.clone() }),
+            same
+        );
+        assert_ne!(of("b", &base), same);
+        let changed = [
+            Config { runs: 3, ..base.clone() },
+            Config { lights: vec![Lighting::with_count(7)], ..base.clone() },
+            Config { exr: ExrFrames::All, ..base.clone() },
+            Config { resolution: [320, 181], ..base.clone() },
+        ];
+        for config in changed {
+            assert_ne!(of("a", &config), same);
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! The product of the axes, and what its runs are called.
+
+use crate::config::{Config, ExrFrames, LightsFrom, SceneEntry};
+use crate::output::{PlannedRun, planned_runs};
+use crate::{Error, Result};
+use std::path::{Path, PathBuf};
+
+/// The runs of one scene with one recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Its directory in the output, empty where there is one scene.
+    pub directory: String,
+    /// The configuration of this scene alone; [`Config::out`] is where its runs lie.
+    pub config: Config,
+    /// Every method under the first lighting, then under the next, without what is excluded.
+    pub runs: Vec<PlannedRun>,
+}
+
+impl Part {
+    /// What tells a run from all others of the sweep: its directory below the output.
+    pub fn full_name(&self, run: &PlannedRun) -> String {
+        if self.directory.is_empty() { run.name.clone() } else { format!("{}/{}", self.directory, run.name) }
+    }
+
+    /// Where a run lies when it is complete.
+    pub fn path(&self, run: &PlannedRun) -> PathBuf {
+        self.config.out.join(&run.name)
+    }
+
+    /// The configuration that makes one run and no other.
+    pub fn run_config(&self, run: &PlannedRun) -> Config {
+        let mut config = self.config.clone();
+        config.methods = vec![run.method];
+        if let LightsFrom::Rain(lighting) = run.lights {
+            config.lights = vec![lighting];
+        }
+        config
+    }
+}
+
+/// All runs that a configuration asks for, by scene.
+///
+/// # Errors
+/// Two scenes would share a directory, an image is asked for of a frame that no scene renders, or no run is left.
+pub fn parts(config: &Config) -> Result<Vec<Part>> {
+    let entries = config.scene_entries();
+    let directories = directories(&entries)?;
+    check_images(config, &entries)?;
+    let several = entries.len() > 1;
+    let mut parts = Vec::new();
+    for (entry, directory) in entries.iter().zip(directories) {
+        let config = entry_config(config, entry, &directory, several);
+        parts.push(Part { directory, runs: planned_runs(&config), config });
+    }
+    for (part, entry) in parts.iter_mut().zip(&entries) {
+        part.runs
+            .retain(|run| !config.exclude.iter().any(|rule| rule.matches(entry, &run.lights, &run.method)));
+    }
+    parts.retain(|part| !part.runs.is_empty());
+    if parts.is_empty() {
+        return Err(Error::input("exclude: no run is left: leave a rule out, or add to the axes"));
+    }
+    Ok(parts)
+}
+
+fn entry_config(config: &Config, entry: &SceneEntry, directory: &str, several: bool) -> Config {
+    let frames = entry.frames.unwrap_or(config.frames);
+    Config {
+        scene: entry.scene.clone(),
+        recording: entry.recording.clone(),
+        scenes: Vec::new(),
+        exclude: Vec::new(),
+        resolution: entry.resolution.unwrap_or(config.resolution),
+        frames,
+        exr: if several { config.exr.within(&frames) } else { config.exr.clone() },
+        out: if directory.is_empty() { config.out.clone() } else { config.out.join(directory) },
+        ..config.clone()
+    }
+}
+
+/// A directory a scene: its name, with the recording's behind it where a scene occurs more than once.
+fn directories(entries: &[SceneEntry]) -> Result<Vec<String>> {
+    if entries.len() == 1 {
+        return Ok(vec![String::new()]);
+    }
+    let scenes: Vec<String> = entries.iter().map(|entry| stem(&entry.scene)).collect();
+    let names: Vec<String> = entries
+        .iter()
+        .zip(&scenes)
+        .map(|(entry, scene)| match scenes.iter().filter(|other| *other == scene).count() {
+            1 => scene.clone(),
+            _ => format!("{scene}-{}", stem(&entry.recording)),
+        })
+        .collect();
+    match names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {
+        Some((_, twin)) => Err(Error::Input(format!(
+            "scenes: two of them would be written to the directory {twin}: give each scene and recording once"
+        ))),
+        None => Ok(names),
+    }
+}
+
+fn stem(name: &str) -> String {
+    Path::new(name).file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// Where scenes render different frames, each gives the images of those it has; somebody must have each.
+fn check_images(config: &Config, entries: &[SceneEntry]) -> Result<()> {
+    let (ExrFrames::List(frames), true) = (&config.exr, entries.len() > 1) else { return Ok(()) };
+    let rendered = |frame| entries.iter().any(|entry| entry.frames.unwrap_or(config.frames).contains(frame));
+    match frames.iter().find(|frame| !rendered(**frame)) {
+        Some(frame) => Err(Error::Input(format!(
+            "exr: frame {frame} is among the frames of no scene: widen frames, or leave it out"
+        ))),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::Lighting;
+
+    fn config(scenes: &[&str], exclude: &[&str]) -> Config {
+        Config {
+            scenes: scenes.iter().map(|text| text.parse().unwrap()).collect(),
+            exclude: exclude.iter().map(|text| text.parse().unwrap()).collect(),
+            methods: ["indi-ortho-4", "encl-ortho-4"].map(|name| name.parse().unwrap()).to_vec(),
+            lights: vec![Lighting::with_count(10), Lighting::with_count(20)],
+            ..Config::default()
+        }
+    }
+
+    fn names(config: &Config) -> Vec<String> {
+        let parts = parts(config).unwrap();
+        parts.iter().flat_map(|part| part.runs.iter().map(|run| part.full_name(run))).collect()
+    }
+
+    #[test]
+    fn runs_are_the_product_of_the_axes() {
+        let flat = ["indi-ortho-4_10", "encl-ortho-4_10", "indi-ortho-4_20", "encl-ortho-4_20"];
+        assert_eq!(names(&config(&[], &[])), flat);
+        assert_eq!(names(&config(&["temple=suntem"], &[])), flat);
+        let all = names(&config(&["street=bistro", "street=bistro-vive", "x/temple.gltf=suntem"], &[]));
+        assert_eq!(all.len(), 12);
+        assert_eq!(all[0], "street-bistro/indi-ortho-4_10");
+        assert_eq!(all[7], "street-bistro-vive/encl-ortho-4_20");
+        assert_eq!(all[8], "temple/indi-ortho-4_10");
+    }
+
+    #[test]
+    fn rules_leave_runs_out_and_keep_the_names_of_others() {
+        let left =
+            names(&config(&["street=bistro", "temple=suntem"], &["scene=street", "lights=10,method=encl-*"]));
+        assert_eq!(left, ["temple/indi-ortho-4_10", "temple/indi-ortho-4_20", "temple/encl-ortho-4_20"]);
+        assert!(parts(&config(&[], &["method=*"])).unwrap_err().to_string().contains("no run is left"));
+    }
+
+    #[test]
+    fn scenes_have_their_own_resolution_frames_and_images() {
+        let mut config = config(&["street=bistro,8x4", "temple=suntem,5..9/2"], &[]);
+        config.exr = "40,7".parse().unwrap();
+        let parts = parts(&config).unwrap();
+        assert_eq!((parts[0].config.resolution, parts[1].config.resolution), ([8, 4], [320, 180]));
+        assert_eq!(parts[0].config.exr, "40".parse().unwrap());
+        assert_eq!(parts[1].config.exr, "7".parse().unwrap());
+        assert_eq!(parts[1].config.out, Path::new("out/temple"));
+        config.exr = "3".parse().unwrap();
+        assert!(super::parts(&config).unwrap_err().to_string().contains("frame 3"));
+    }
+
+    #[test]
+    fn scenes_that_share_a_directory_are_refused() {
+        let error = parts(&config(&["a/x.gltf=bistro", "b/x.gltf=bistro"], &[])).unwrap_err().to_string();
+        assert!(error.contains("x-bistro"), "{error}");
+    }
+
+    #[test]
+    fn the_configuration_of_a_run_asks_for_it_alone() {
+        let parts = parts(&config(&["street=bistro", "temple=suntem"], &[])).unwrap();
+        let alone = super::parts(&parts[1].run_config(&parts[1].runs[3])).unwrap();
+        assert_eq!(alone.len(), 1);
+        assert_eq!(alone[0].runs.len(), 1);
+        assert_eq!(alone[0].runs[0].method, parts[1].runs[3].method);
+        assert_eq!(alone[0].runs[0].lights, parts[1].runs[3].lights);
+    }
+}

@@ -1,0 +1,85 @@
+//! Writes the runs of one part as they come.
+
+use super::{Part, Reporter};
+use crate::config::LightsFrom;
+use crate::measure::ViewPixels;
+use crate::output::{
+    DeviceInfo, Manifest, PlannedRun, RUN_FORMAT, RunWriter, Source, git_revision, rfc3339_utc,
+};
+use crate::replay::{Inputs, RunResult, RunSink};
+use crate::{Error, Result};
+
+/// One run's files. An error of the sink's own (a full disk, say) is not the run's: `broken` tells them apart.
+pub(super) struct Files<'a> {
+    pub part: &'a Part,
+    pub inputs: &'a Inputs,
+    pub reporter: &'a dyn Reporter,
+    pub fingerprint: String,
+    pub writer: Option<RunWriter>,
+    pub broken: bool,
+}
+
+/// The device as manifests have it.
+pub(super) fn device(device: &crate::vk::DeviceInfo) -> DeviceInfo {
+    DeviceInfo {
+        name: device.name.clone(),
+        driver: format!("{} {}", device.driver, device.driver_version),
+        api: device.api_version.clone(),
+    }
+}
+
+impl Files<'_> {
+    fn noted<T>(&mut self, result: Result<T>) -> Result<T> {
+        self.broken |= result.is_err();
+        result
+    }
+
+    fn manifest(&self, run: &PlannedRun, result: &RunResult) -> Manifest {
+        let Inputs { scene, recording, .. } = self.inputs;
+        Manifest {
+            format: RUN_FORMAT,
+            version: env!("CARGO_PKG_VERSION"),
+            git_revision: git_revision(),
+            fingerprint: self.fingerprint.clone(),
+            method: run.method.to_string(),
+            lighting: match run.lights {
+                LightsFrom::Rain(lighting) => Some(lighting),
+                LightsFrom::File(_) | LightsFrom::Scene => None,
+            },
+            config: self.part.run_config(run),
+            scene: Source { name: scene.name.clone(), sha256: scene.sha256.clone() },
+            recording: Source { name: recording.name().to_owned(), sha256: recording.sha256().to_owned() },
+            device: device(&result.device),
+            capacities: result.capacities,
+            growth: result.growth.clone(),
+            started: rfc3339_utc(result.started),
+            duration_s: result.duration.as_secs_f64(),
+        }
+    }
+}
+
+impl RunSink for Files<'_> {
+    fn begin(&mut self, run: &PlannedRun) -> Result<()> {
+        self.reporter.say(&self.part.full_name(run));
+        let writer = RunWriter::create(&self.part.config.out, &run.name);
+        self.writer = Some(self.noted(writer)?);
+        Ok(())
+    }
+
+    fn images(&mut self, frame: u32, views: &[ViewPixels]) -> Result<()> {
+        let writer = self.writer.as_ref().ok_or_else(not_begun)?;
+        let written = writer.write_images(frame, views, None);
+        self.noted(written)
+    }
+
+    fn finish(&mut self, run: &PlannedRun, result: RunResult) -> Result<()> {
+        let manifest = self.manifest(run, &result);
+        let writer = self.writer.take().ok_or_else(not_begun)?;
+        let finished = writer.finish(&manifest, &result.counts, &result.times);
+        self.noted(finished)
+    }
+}
+
+fn not_begun() -> Error {
+    Error::Internal("a run was not begun".into())
+}
