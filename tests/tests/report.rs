@@ -16,6 +16,7 @@ const FRAMES: [u32; 4] = [0, 300, 580, 660];
 fn write_run(out: &Path, scene: [&str; 2], views: u32, method: &str, lights: u32) {
     let lighting = Config::default().lights[0];
     let manifest = Manifest {
+        fingerprint: String::new(),
         format: RUN_FORMAT,
         version: "0.1.0",
         git_revision: "unknown",
