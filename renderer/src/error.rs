@@ -28,6 +28,9 @@ pub enum Error {
     /// Some runs of a sweep failed; the others are complete.
     #[error("{0}")]
     Failures(String),
+    /// Two result sets that should be equal are not.
+    #[error("{0}")]
+    Difference(String),
     /// The user interrupted; what was complete is kept.
     #[error("{0}")]
     Interrupted(String),
@@ -48,7 +51,7 @@ impl Error {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Input(_) | Self::File { .. } | Self::Device(_) => 2,
-            Self::Internal(_) => 1,
+            Self::Internal(_) | Self::Difference(_) => 1,
             Self::Failures(_) => 3,
             Self::Interrupted(_) => 130,
         }

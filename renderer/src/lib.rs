@@ -12,6 +12,7 @@
 
 pub mod cli;
 pub mod clustering;
+pub mod compare;
 pub mod config;
 pub mod cpu;
 pub mod draw_list;

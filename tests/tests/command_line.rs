@@ -322,3 +322,23 @@ fn completions_are_written_for_a_shell() {
     let script = succeed(manylight().args(["completions", "bash"]));
     assert!(String::from_utf8_lossy(&script.stdout).contains("--displaced-volume"));
 }
+
+#[test]
+fn results_are_compared_and_a_difference_is_an_exit_code() {
+    let root = tempfile::tempdir().unwrap();
+    let out = |name: &str| root.path().join(name);
+    let compare = |a: &str, b: &str| output(manylight().arg("compare").args([out(a), out(b)]));
+    succeed(small(&out("a")).args(["--runs", "2"]));
+    succeed(&mut small(&out("b")));
+    succeed(small(&out("fewer")).args(["--frames", "300", "--runs", "0"]));
+    let same = compare("a", "b");
+    assert_eq!(same.status.code(), Some(0), "{}", String::from_utf8_lossy(&same.stdout));
+    let differs = compare("a", "fewer");
+    assert_eq!(differs.status.code(), Some(1));
+    assert_eq!(stderr(&differs).lines().count(), 1, "{}", stderr(&differs));
+    assert!(String::from_utf8_lossy(&differs.stdout).contains("missing in B: frames 380"));
+    let json = output(manylight().args(["compare", "--json"]).args([out("a"), out("a")]));
+    let json: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+    assert_eq!(json["runs"][0]["times"][0]["exceeds_noise"], false);
+    assert!(refused(manylight().arg("compare").args([out("a"), out("nowhere")])).contains("nowhere"));
+}

@@ -146,6 +146,7 @@ fn kind(error: &Error) -> &'static str {
         Error::Device(_) => "device",
         Error::Internal(_) => "internal",
         Error::Failures(_) => "failures",
+        Error::Difference(_) => "difference",
         Error::Interrupted(_) => "interrupted",
     }
 }

@@ -1,6 +1,7 @@
 //! Command line: arguments in, one exit code out. Each subcommand's handler is a file of its own.
 
 mod bake_recording;
+mod compare;
 mod completions;
 mod console;
 mod devices;
@@ -40,7 +41,8 @@ const LONG_VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (", env!("MANYLI
 const EXIT_CODES: &str = "\
 Exit codes:
   0    done
-  1    the program or the driver misbehaved: a validation message, a lost device
+  1    the program or the driver misbehaved: a validation message, a lost device;
+       or `compare` found counters that differ
   2    something to be mended: a flag, a file, a missing device
   3    some runs of a replay failed; each left OUT/<run>.error.json, and the others are complete
   130  interrupted; the frame was finished and what was complete is kept
@@ -53,6 +55,8 @@ enum Command {
     Replay(Box<replay::Args>),
     /// Draw the figures of results, check the claims, write it all as one page
     Report(report::Args),
+    /// Compare two result sets run by run: counters exactly, times against their noise
+    Compare(compare::Args),
     /// List the Vulkan devices, with the limits that matter
     Devices,
     /// Print a scene's triangles, materials, textures and bounds
@@ -86,6 +90,7 @@ fn dispatch(command: Command, console: &Console) -> Result<()> {
     match command {
         Command::Replay(args) => replay::run(*args, console),
         Command::Report(args) => report::run(&args, console),
+        Command::Compare(args) => compare::run(&args, console),
         Command::Devices => devices::run(console),
         Command::Scene(args) => scene::run(&args, console),
         Command::ImportRecording(args) => import_recording::run(&args, console),

@@ -61,7 +61,7 @@ impl StageMinima {
 }
 
 /// A stage's path without the numbers of views and clusterings.
-fn kind(path: &str) -> String {
+pub(crate) fn kind(path: &str) -> String {
     let mut depth = 0_u32;
     path.chars()
         .filter(|c| {

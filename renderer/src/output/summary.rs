@@ -254,7 +254,7 @@ impl Ratios {
 }
 
 /// Lines above, below and under the header, none between rows: characters in the order of comfy-table's presets.
-const TABLE_LINES: &str = "  ── ══      ──    ";
+pub(crate) const TABLE_LINES: &str = "  ── ══      ──    ";
 
 impl fmt::Display for Summary {
     /// The table, each value with its ratio in brackets, and a line that says what ratios are to.
@@ -314,7 +314,7 @@ fn cell(value: Option<f64>, ratio: Option<f64>, milliseconds: bool) -> String {
 }
 
 /// A whole number with a space between thousands.
-fn grouped(number: u64) -> String {
+pub(crate) fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (i, digit) in digits.chars().enumerate() {

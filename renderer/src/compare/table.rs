@@ -1,0 +1,103 @@
+//! The comparison as people read it.
+
+use super::{Comparison, CounterComparison, ResultSet, RunComparison, TimeComparison};
+use crate::output::{TABLE_LINES, grouped};
+use comfy_table::{CellAlignment, ContentArrangement, Table};
+use std::fmt;
+
+impl fmt::Display for Comparison {
+    /// Where results come from, then of every run the counters that differ and the times, then what is missing.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        source(f, "A", &self.a)?;
+        source(f, "B", &self.b)?;
+        if self.a.devices != self.b.devices {
+            writeln!(f, "The devices differ, so ratios of times compare machines.")?;
+        }
+        for run in &self.runs {
+            writeln!(f, "\n{}", run.run)?;
+            display_run(f, run)?;
+        }
+        for (side, missing) in [("A", &self.missing_in_a), ("B", &self.missing_in_b)] {
+            for run in missing {
+                writeln!(f, "\nmissing in {side}: {run}")?;
+            }
+        }
+        match self.difference() {
+            Some(difference) => write!(f, "\n{difference}"),
+            None => write!(f, "\nAll counters of {} runs are equal.", self.runs.len()),
+        }
+    }
+}
+
+fn source(f: &mut fmt::Formatter<'_>, side: &str, set: &ResultSet) -> fmt::Result {
+    let (programs, devices) = (set.programs.join(" and "), set.devices.join(" and "));
+    writeln!(f, "{side}: {}, {} runs by {programs} on {devices}", set.directory, set.runs)
+}
+
+fn display_run(f: &mut fmt::Formatter<'_>, run: &RunComparison) -> fmt::Result {
+    for (side, frames) in [("A", &run.frames_missing_in_a), ("B", &run.frames_missing_in_b)] {
+        if !frames.is_empty() {
+            writeln!(f, "  missing in {side}: frames {}", list(frames))?;
+        }
+    }
+    let differing: Vec<_> = run.counters.iter().filter(|counter| counter.differs()).collect();
+    if differing.is_empty() {
+        writeln!(f, "  counters: all {} equal in {} frames", run.counters.len(), run.frames)?;
+    }
+    if run.times.is_empty() {
+        writeln!(f, "  times: not on both sides")?;
+    }
+    if differing.is_empty() && run.times.is_empty() {
+        return Ok(());
+    }
+    let mut table = Table::new();
+    table.load_preset(TABLE_LINES).set_content_arrangement(ContentArrangement::Disabled);
+    table.set_header(["metric", "A", "B", "B/A", "over frames", "noise", "verdict"]);
+    table.add_rows(differing.iter().map(|counter| counter_row(counter, run.frames)));
+    table.add_rows(run.times.iter().map(time_row));
+    for column in table.column_iter_mut().skip(1).take(5) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table.lines().try_for_each(|line| writeln!(f, "{}", line.trim_end()))
+}
+
+fn counter_row(counter: &CounterComparison, frames: usize) -> [String; 7] {
+    let first = counter.first_difference.map(|frame| format!(", first {frame}")).unwrap_or_default();
+    [
+        counter.metric.clone(),
+        counter.a.map(grouped).unwrap_or_default(),
+        counter.b.map(grouped).unwrap_or_default(),
+        counter.ratio.map(|ratio| format!("{ratio:.6}")).unwrap_or_default(),
+        counter.over_frames.map(|s| format!("{:.4} .. {:.4}", s.min, s.max)).unwrap_or_default(),
+        String::new(),
+        format!("differs in {} of {frames} frames{first}", counter.frames_differing),
+    ]
+}
+
+fn time_row(time: &TimeComparison) -> [String; 7] {
+    let verdict = match time.exceeds_noise {
+        None => "noise unknown: fewer than 2 temporal runs",
+        Some(false) => "within noise",
+        Some(true) if time.ratio > 1.0 => "slower",
+        Some(true) => "faster",
+    };
+    [
+        format!("{} ms", time.stage),
+        format!("{:.3}", time.a_ms),
+        format!("{:.3}", time.b_ms),
+        format!("{:.3}", time.ratio),
+        format!("{:.2} .. {:.2}", time.over_frames.min, time.over_frames.max),
+        time.noise.map(|noise| format!("{:.1} %", 100.0 * noise)).unwrap_or_default(),
+        verdict.to_owned(),
+    ]
+}
+
+/// Frame numbers, the first few of many.
+fn list(frames: &[u32]) -> String {
+    const SHOWN: usize = 8;
+    let shown: Vec<String> = frames.iter().take(SHOWN).map(u32::to_string).collect();
+    match frames.len().saturating_sub(SHOWN) {
+        0 => shown.join(", "),
+        more => format!("{} and {more} more", shown.join(", ")),
+    }
+}
