@@ -342,3 +342,37 @@ fn results_are_compared_and_a_difference_is_an_exit_code() {
     assert_eq!(json["runs"][0]["times"][0]["exceeds_noise"], false);
     assert!(refused(manylight().arg("compare").args([out("a"), out("nowhere")])).contains("nowhere"));
 }
+
+#[test]
+fn a_trace_has_every_stage_of_the_chosen_frames_inside_its_parent() {
+    let out = tempfile::tempdir().unwrap();
+    succeed(small(out.path()).args(["--trace", "380", "--runs", "2"]));
+    for run in ["indi-persp-64", "encl-ortho-4"] {
+        let trace: serde_json::Value =
+            serde_json::from_str(&read(out.path().join(run).join("trace.json"))).unwrap();
+        let number = |value: &serde_json::Value| value.as_f64().expect("a number");
+        let mut spans = std::collections::BTreeMap::new();
+        for event in trace["traceEvents"].as_array().unwrap() {
+            if event["ph"] == "M" {
+                continue;
+            }
+            assert_eq!((&event["ph"], &event["args"]["frame"]), (&"X".into(), &380.into()));
+            let (start, length) = (number(&event["ts"]), number(&event["dur"]));
+            assert!(start >= 0.0 && length >= 0.0, "{event}");
+            let stage = event["args"]["stage"].as_str().unwrap().to_owned();
+            let track = (event["pid"].as_u64().unwrap(), event["args"]["run"].as_u64().unwrap());
+            if let Some((parent, _)) = stage.rsplit_once('/') {
+                let &(from, to) = spans.get(&(track, parent.to_owned())).expect("parents come first");
+                assert!(from <= start && start + length <= to + 1e-3, "{event} is not inside {parent}");
+            }
+            assert!(spans.insert((track, stage), (start, start + length)).is_none(), "{event} comes twice");
+        }
+        let stages = read(out.path().join(run).join("timings.csv")).lines().skip(1).count() / 2;
+        // Two clocks, and of two frames in timings.csv only one was asked for.
+        assert_eq!(spans.len(), 2 * stages, "{run}");
+    }
+    let message = refused(small(out.path()).args(["--trace", "381"]));
+    assert!(message.contains("trace: frame 381"), "{message}");
+    let message = refused(small(out.path()).args(["--trace", "--runs", "0"]));
+    assert!(message.contains("trace") && message.contains("runs"), "{message}");
+}

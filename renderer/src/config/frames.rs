@@ -1,4 +1,4 @@
-//! Frame selections: `A..B/STEP` and the list of frames whose images are written.
+//! Frame selections: `A..B/STEP` and the list of frames of which something is written.
 
 use super::{ExrFrames, FrameRange};
 use crate::{Error, Result};
@@ -99,7 +99,12 @@ impl Serialize for FrameRange {
 }
 
 impl ExrFrames {
-    /// Whether this frame's images are written, given that it is rendered.
+    /// Whether no frame is asked for.
+    pub fn is_empty(&self) -> bool {
+        matches!(self, Self::List(frames) if frames.is_empty())
+    }
+
+    /// Whether this frame is asked for, given that it is rendered.
     pub fn contains(&self, frame: u32) -> bool {
         match self {
             Self::All => true,
@@ -107,16 +112,16 @@ impl ExrFrames {
         }
     }
 
-    /// Refuses frames that are asked for but not rendered; `rendered` is ascending.
+    /// Refuses frames that `field` asks for but that are not rendered; `rendered` is ascending.
     ///
     /// # Errors
     /// Names the first such frame.
-    pub fn check_rendered(&self, rendered: &[u32]) -> Result<()> {
+    pub fn check_rendered(&self, field: &str, rendered: &[u32]) -> Result<()> {
         let Self::List(frames) = self else { return Ok(()) };
         match frames.iter().find(|frame| rendered.binary_search(frame).is_err()) {
             None => Ok(()),
             Some(frame) => Err(Error::input(format!(
-                "exr: frame {frame} is not among the frames rendered: widen frames, or leave it out"
+                "{field}: frame {frame} is not among the frames rendered: widen frames, or leave it out"
             ))),
         }
     }

@@ -99,6 +99,13 @@ pub struct Layer {
     #[schemars(schema_with = "schema::exr")]
     pub exr: Option<ExrFrames>,
 
+    /// Frames of the temporal runs whose CPU and GPU stages go to `trace.json`, for Perfetto or chrome://tracing:
+    /// numbers with commas between, `all` (the flag alone) or `none`.
+    #[arg(long, value_name = "LIST|all|none", num_args = 0..=1, default_missing_value = "all")]
+    #[serde(default)]
+    #[schemars(schema_with = "schema::exr")]
+    pub trace: Option<ExrFrames>,
+
     /// How a light fades with distance: phy, red, smo, phy_red_1, phy_red_2, phy_smo_1, phy_smo_2, lin or stp.
     #[arg(long, value_name = "NAME", value_parser = values::attenuation)]
     #[serde(default, deserialize_with = "de::attenuation")]
@@ -164,6 +171,7 @@ impl Config {
         set(&mut self.frames, layer.frames);
         set(&mut self.runs, layer.runs);
         set(&mut self.exr, layer.exr);
+        set(&mut self.trace, layer.trace);
         set(&mut self.attenuation, layer.attenuation);
         set(&mut self.marking, layer.marking);
         set(&mut self.displaced_volume, layer.displaced_volume);

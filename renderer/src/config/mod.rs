@@ -73,7 +73,7 @@ pub struct FrameRange {
     pub step: u32,
 }
 
-/// Which frames' images are written.
+/// Frames of which something is written: images, a trace.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ExrFrames {
     /// These, ascending.
@@ -151,6 +151,8 @@ pub struct Config {
     pub runs: u32,
     /// Frames whose EXR and PNG images are written.
     pub exr: ExrFrames,
+    /// Frames of the temporal runs that the trace shows.
+    pub trace: ExrFrames,
     /// Attenuation function.
     #[serde(serialize_with = "values::ser::attenuation")]
     pub attenuation: Attenuation,
@@ -191,6 +193,7 @@ impl Default for Config {
             frames: FrameRange { first: 0, end: None, step: 40 },
             runs: 2,
             exr: ExrFrames::List(Vec::new()),
+            trace: ExrFrames::List(Vec::new()),
             attenuation: Attenuation::PhyRed2,
             marking: Marking::Depth,
             displaced_volume: DisplacedVolume::View,
@@ -264,6 +267,9 @@ impl Config {
         values::check_resolution(self.resolution).map_err(at("resolution"))?;
         values::check_msaa(self.msaa).map_err(at("msaa"))?;
         self.frames.check().map_err(at("frames"))?;
+        if self.runs == 0 && !self.trace.is_empty() {
+            return Err(at("trace")("there is no temporal run to trace: set runs to 1 or more".into()));
+        }
         values::check_path(&self.out).map_err(at("out"))?;
         values::check_capacity(self.visible_cluster_capacity).map_err(at("visible_cluster_capacity"))?;
         values::check_capacity(self.light_index_capacity).map_err(at("light_index_capacity"))?;
@@ -316,10 +322,11 @@ impl Config {
     /// The frames to render of a recording with `available` frames, ascending.
     ///
     /// # Errors
-    /// The range reaches beyond the recording, or leaves out a frame whose images are asked for.
+    /// The range reaches beyond the recording, or leaves out a frame whose images or trace are asked for.
     pub fn frame_numbers(&self, available: u32) -> Result<Vec<u32>> {
         let frames = self.frames.frames(available)?;
-        self.exr.check_rendered(&frames)?;
+        self.exr.check_rendered("exr", &frames)?;
+        self.trace.check_rendered("trace", &frames)?;
         Ok(frames)
     }
 }

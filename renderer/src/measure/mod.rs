@@ -4,7 +4,9 @@
 mod capacity;
 mod lists;
 mod record;
+mod trace;
 
 pub use capacity::{Capacities, GrowthEvent};
 pub use lists::ClusterLists;
 pub use record::{ClusterRecord, ClusteringCounts, FrameCounts, FrameTimes, StageTime, ViewPixels};
+pub use trace::{FrameTrace, StageSpan};

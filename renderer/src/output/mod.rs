@@ -8,7 +8,7 @@
 //!   summary.csv            one row a method and lighting (and scene, where there are several)
 //!   <run>/                 named by method (and lighting, where there are several)
 //!     run.json             how the run came to be
-//!     frames.csv  clusterings.csv  histograms.csv  timings.csv
+//!     frames.csv  clusterings.csv  histograms.csv  timings.csv  trace.json
 //!     frames/NNNNNN.exr  NNNNNN.png  NNNNNN_lights.png  NNNNNN_clusters.png
 //!   <run>.error.json       why a run failed, until it succeeds
 //! ```
@@ -25,6 +25,7 @@ mod saved;
 mod stages;
 mod summary;
 mod tables;
+mod trace;
 
 #[cfg(test)]
 mod testing;

@@ -7,8 +7,9 @@ use super::preview::write_previews;
 use super::stages::StageMinima;
 use super::summary::Summary;
 use super::tables;
+use super::trace;
 use crate::config::{Config, Lighting, LightsFrom};
-use crate::measure::{FrameCounts, FrameTimes, ViewPixels};
+use crate::measure::{FrameCounts, FrameTimes, FrameTrace, ViewPixels};
 use crate::methods::MethodSpec;
 use crate::{Error, Result};
 use std::io::Write;
@@ -104,6 +105,14 @@ impl RunWriter {
         let (directory, stem) = (self.staged.path().join("frames"), format!("{frame:06}"));
         write_exr(&directory.join(format!("{stem}.exr")), views)?;
         write_previews(&directory, &stem, views, most_lights)
+    }
+
+    /// Writes `trace.json`.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_trace(&self, frames: &[FrameTrace]) -> Result<()> {
+        write_whole(&self.staged.path().join("trace.json"), |file| trace::write_trace(file, frames))
     }
 
     /// Writes the tables and the manifest, and puts the directory in its place, over an older run's.

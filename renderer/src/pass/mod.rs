@@ -5,4 +5,4 @@ mod access;
 mod recorder;
 
 pub use access::{Access, Use};
-pub use recorder::{FrameTracker, Recorder, ScopeName, ScopeTree, Timestamps};
+pub use recorder::{FrameTracker, Recorder, ScopeName, ScopeSpan, ScopeTree, Timestamps};

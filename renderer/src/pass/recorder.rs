@@ -5,7 +5,7 @@ use crate::vk::Context;
 use ash::vk;
 use std::fmt;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Name of a stage; `cluster[0]` where it has an index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,7 +80,19 @@ pub struct Timestamps {
     values: Vec<u64>,
     /// Scopes that got timestamps in the last frame recorded.
     timed: usize,
-    cpu_ms: Vec<f64>,
+    /// When recording of each scope began, and how long it took.
+    cpu: Vec<(Instant, Duration)>,
+}
+
+/// When one scope ran.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ScopeSpan {
+    /// Start and end in ticks of the device's clock; `None` without timestamps.
+    pub gpu_ticks: Option<[u64; 2]>,
+    /// When its recording began.
+    pub cpu_start: Instant,
+    /// How long its recording took.
+    pub cpu_time: Duration,
 }
 
 /// More scopes than any method's stage tree has for `views` views.
@@ -103,7 +115,7 @@ impl Timestamps {
             pool,
             values: vec![0; 2 * scopes],
             timed: 0,
-            cpu_ms: Vec::with_capacity(scopes),
+            cpu: Vec::with_capacity(scopes),
         })
     }
 
@@ -121,12 +133,21 @@ impl Timestamps {
         let mask = u64::MAX >> (64 - limits.timestamp_valid_bits.clamp(1, 64));
         let period = limits.timestamp_period_ns;
         let values = &self.values[..2 * self.timed];
-        Ok(self.cpu_ms.iter().enumerate().map(move |(scope, &cpu)| {
+        Ok(self.cpu.iter().enumerate().map(move |(scope, (_, cpu))| {
             let gpu = values
                 .get(2 * scope..2 * scope + 2)
                 .map_or(f64::NAN, |pair| (pair[1].wrapping_sub(pair[0]) & mask) as f64 * period * 1e-6);
-            (gpu, cpu)
+            (gpu, cpu.as_secs_f64() * 1e3)
         }))
+    }
+
+    /// When each scope ran of the frame that [`Self::read`] read last, in execution order.
+    pub fn spans(&self) -> impl ExactSizeIterator<Item = ScopeSpan> + '_ {
+        self.cpu.iter().enumerate().map(|(scope, &(cpu_start, cpu_time))| {
+            let timed = scope < self.timed;
+            let gpu_ticks = timed.then(|| [self.values[2 * scope], self.values[2 * scope + 1]]);
+            ScopeSpan { gpu_ticks, cpu_start, cpu_time }
+        })
     }
 }
 
@@ -168,7 +189,7 @@ impl<'a> Recorder<'a> {
     ) -> Self {
         tracker.0.begin_frame();
         timestamps.timed = 0;
-        timestamps.cpu_ms.clear();
+        timestamps.cpu.clear();
         let queries = timestamps.values.len() as u32;
         unsafe { context.device.cmd_reset_query_pool(commands, timestamps.pool, 0, queries) };
         let recorder =
@@ -186,12 +207,12 @@ impl<'a> Recorder<'a> {
         let outer = self.current.replace(position);
         let timed = position < self.timed_scopes;
         self.context.begin_label(self.commands, &self.tree.scopes[position].label);
-        self.timestamps.cpu_ms.push(0.0);
         self.timestamps.timed += usize::from(timed);
         self.timestamp(timed, 2 * position);
         let start = Instant::now();
+        self.timestamps.cpu.push((start, Duration::ZERO));
         let result = body(self);
-        self.timestamps.cpu_ms[position] = start.elapsed().as_secs_f64() * 1e3;
+        self.timestamps.cpu[position].1 = start.elapsed();
         self.timestamp(timed, 2 * position + 1);
         self.context.end_label(self.commands);
         self.current = outer;

@@ -13,6 +13,7 @@ mod plan;
 mod player;
 mod session;
 mod temporal;
+mod tracer;
 
 pub use inputs::Inputs;
 pub use plan::{FramePlan, plan_frames};
@@ -20,7 +21,9 @@ pub use player::{Player, device_info};
 pub use session::shader_library;
 
 use crate::config::Config;
-use crate::measure::{Capacities, ClusterLists, FrameCounts, FrameTimes, GrowthEvent, ViewPixels};
+use crate::measure::{
+    Capacities, ClusterLists, FrameCounts, FrameTimes, FrameTrace, GrowthEvent, ViewPixels,
+};
 use crate::output::PlannedRun;
 use crate::recording::Recording;
 use crate::vk::DeviceInfo;
@@ -29,6 +32,7 @@ use engine::Engine;
 use session::Session;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, SystemTime};
+use tracer::Tracer;
 
 /// Takes what runs produce, as soon as it is there.
 pub trait RunSink {
@@ -73,6 +77,8 @@ pub struct RunResult {
     pub counts: Vec<FrameCounts>,
     /// A record a frame and temporal run.
     pub times: Vec<FrameTimes>,
+    /// When the stages of the traced frames ran.
+    pub traces: Vec<FrameTrace>,
     /// What the buffers held at the end.
     pub capacities: Capacities,
     /// Frames that made them grow.
@@ -129,6 +135,7 @@ fn replay_run(
     let mut result = RunResult {
         counts: Vec::with_capacity(plans.len()),
         times: vec![],
+        traces: vec![],
         capacities: Capacities {
             visible_clusters: config.visible_cluster_capacity,
             light_indices: config.light_index_capacity,
@@ -185,10 +192,14 @@ fn time(
     let mode = (light_count, result.capacities, false);
     let mut engine = Engine::new(session, config, run.method, plans, mode)?;
     temporal::warm_up(&mut engine, session, &plans[0], &mut lights)?;
+    let frames = plans.iter().map(|plan| plan.frame);
+    let mut tracer = Tracer::new(&config.trace, frames, config.runs, engine.tree.paths().len());
     for number in 0..config.runs {
-        let times = temporal::time_run(&mut engine, session, plans, &mut lights, number, watch)?;
+        let keep = (number, &mut tracer);
+        let times = temporal::time_run(&mut engine, session, plans, &mut lights, keep, watch)?;
         result.times.extend(times);
     }
+    result.traces = tracer.finish(&engine.tree, &session.context.limits);
     result.capacities = engine.capacities();
     result.growth.append(&mut engine.growth);
     Ok(())

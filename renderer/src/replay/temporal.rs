@@ -5,6 +5,7 @@ use super::Watch;
 use super::engine::Engine;
 use super::plan::FramePlan;
 use super::session::Session;
+use super::tracer::Tracer;
 use crate::Result;
 use crate::frame::Frame;
 use crate::frame::SLOTS;
@@ -19,13 +20,13 @@ struct Samples {
     times: Vec<(f64, f64)>,
 }
 
-/// Renders all frames once and times them.
+/// Renders all frames once and times them; the tracer keeps what it wants of them.
 pub fn time_run(
     engine: &mut Engine,
     session: &mut Session,
     plans: &[FramePlan],
     lights: &mut LightSource,
-    run: u32,
+    (run, tracer): (u32, &mut Tracer),
     watch: &Watch,
 ) -> Result<Vec<FrameTimes>> {
     let mut samples = Samples::default();
@@ -34,7 +35,7 @@ pub fn time_run(
     while next < plans.len() || in_flight.iter().any(Option::is_some) {
         let slot = next % SLOTS;
         if let Some(ended) = in_flight[slot].take()
-            && collect(engine, session, slot, &plans[ended], &mut samples)?
+            && collect(engine, session, (slot, &plans[ended]), &mut samples, (run, tracer))?
         {
             // The frame did not fit: whatever follows it is rendered again too.
             abandon(session, &mut in_flight)?;
@@ -79,9 +80,9 @@ fn nothing(_: &mut Recorder, _: &Frame) {}
 fn collect(
     engine: &mut Engine,
     session: &mut Session,
-    slot: usize,
-    plan: &FramePlan,
+    (slot, plan): (usize, &FramePlan),
     samples: &mut Samples,
+    (run, tracer): (u32, &mut Tracer),
 ) -> Result<bool> {
     session.slots[slot].wait()?;
     if engine.overflowed(session, slot) {
@@ -89,6 +90,7 @@ fn collect(
     }
     samples.frames.push(plan.frame);
     samples.times.extend(session.slots[slot].timestamps.read()?);
+    tracer.keep(run, plan.frame, session.slots[slot].timestamps.spans());
     Ok(false)
 }
 

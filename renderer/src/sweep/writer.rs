@@ -75,6 +75,9 @@ impl RunSink for Files<'_> {
     fn finish(&mut self, run: &PlannedRun, result: RunResult) -> Result<()> {
         let manifest = self.manifest(run, &result);
         let writer = self.writer.take().ok_or_else(not_begun)?;
+        if !result.traces.is_empty() {
+            writer.write_trace(&result.traces)?;
+        }
         let finished = writer.finish(&manifest, &result.counts, &result.times);
         self.noted(finished)
     }

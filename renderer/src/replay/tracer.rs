@@ -1,0 +1,62 @@
+//! Keeps when the stages of chosen frames ran.
+
+use crate::config::ExrFrames;
+use crate::measure::{FrameTrace, StageSpan};
+use crate::pass::{ScopeSpan, ScopeTree};
+use crate::vk::Limits;
+
+/// The spans of the traced frames of all temporal runs of one method.
+pub struct Tracer<'a> {
+    wanted: &'a ExrFrames,
+    /// (Run, frame) of every frame kept.
+    frames: Vec<(u32, u32)>,
+    /// The spans of each of them, one frame's behind the other's.
+    spans: Vec<ScopeSpan>,
+}
+
+impl<'a> Tracer<'a> {
+    /// Room for the `wanted` of `frames` in `runs` runs with `stages` stages each, so that keeping them allocates
+    /// nothing.
+    pub fn new(wanted: &'a ExrFrames, frames: impl Iterator<Item = u32>, runs: u32, stages: usize) -> Self {
+        let count = frames.filter(|&frame| wanted.contains(frame)).count() * runs as usize;
+        Self { wanted, frames: Vec::with_capacity(count), spans: Vec::with_capacity(count * stages) }
+    }
+
+    /// Keeps a frame's spans if it is wanted.
+    pub fn keep(&mut self, run: u32, frame: u32, spans: impl Iterator<Item = ScopeSpan>) {
+        if self.wanted.contains(frame) {
+            self.frames.push((run, frame));
+            self.spans.extend(spans);
+        }
+    }
+
+    /// All of it on two clocks. That of the host starts with the first stage. That of the device cannot be compared
+    /// with it; its first stage is put where the first frame's recording ended, before which it did not run.
+    pub fn finish(self, tree: &ScopeTree, limits: &Limits) -> Vec<FrameTrace> {
+        let Some(first) = self.spans.first() else { return vec![] };
+        let cpu_origin = first.cpu_start;
+        let gpu_origin = first.gpu_ticks.map_or(0, |ticks| ticks[0]);
+        let lead = first.cpu_time.as_nanos() as u64;
+        let mask = u64::MAX >> (64 - limits.timestamp_valid_bits.clamp(1, 64));
+        let gpu_ns = |tick: u64| {
+            let ticks = tick.wrapping_sub(gpu_origin) & mask;
+            lead + (ticks as f64 * limits.timestamp_period_ns).round() as u64
+        };
+        let span = |(path, span): (&str, &ScopeSpan)| {
+            let start = span.cpu_start.duration_since(cpu_origin).as_nanos() as u64;
+            StageSpan {
+                stage: path.to_owned(),
+                gpu_ns: span.gpu_ticks.map(|ticks| ticks.map(gpu_ns)),
+                cpu_ns: [start, start + span.cpu_time.as_nanos() as u64],
+            }
+        };
+        let frames = self.frames.iter().zip(self.spans.chunks(tree.paths().len()));
+        frames
+            .map(|(&(run, frame), spans)| FrameTrace {
+                run,
+                frame,
+                stages: tree.paths().zip(spans).map(span).collect(),
+            })
+            .collect()
+    }
+}
