@@ -36,6 +36,7 @@ pub mod replay;
 pub mod report;
 pub mod scene;
 pub mod sweep;
+pub mod still;
 pub mod views;
 pub mod vk;
 

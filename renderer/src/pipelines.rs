@@ -2,6 +2,10 @@
 //!
 //! A variant is data: defines and specialization constants. Pipelines that several methods share are made once.
 
+mod debug;
+
+pub use debug::DebugPipelines;
+
 use crate::config::Marking;
 use crate::draw_list::SurfaceKind;
 use crate::layouts::Layouts;

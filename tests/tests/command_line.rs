@@ -376,3 +376,29 @@ fn a_trace_has_every_stage_of_the_chosen_frames_inside_its_parent() {
     let message = refused(small(out.path()).args(["--trace", "--runs", "0"]));
     assert!(message.contains("trace") && message.contains("runs"), "{message}");
 }
+
+#[test]
+fn a_still_is_written_as_png_and_exr() {
+    let out = tempfile::tempdir().unwrap();
+    let still = |args: &[&str]| {
+        let mut command = manylight();
+        command.args(["still", "--quiet", "--resolution", "64x40", "--frame", "300", "--lights", "100"]);
+        command.args(["--method", "encl-ortho-4", "--out"]).arg(out.path()).args(args);
+        command
+    };
+    let written = succeed(&mut still(&["--view", "birdseye", "--show", "clusters,frusta", "--validate"]));
+    assert!(String::from_utf8_lossy(&written.stdout).contains("visible clusters"));
+    for extension in ["png", "exr"] {
+        assert!(out.path().join(format!("000300_encl-ortho-4_birdseye.{extension}")).is_file());
+    }
+    for (args, expected) in [
+        (&["--runs", "2"][..], "--runs"),
+        (&["--view", "above"], "birdseye"),
+        (&["--show", "clusters,light-count"], "exclude each other"),
+        (&["--method", "indi-persp-64"], "once"),
+        (&["--frame", "9000"], "reach beyond"),
+    ] {
+        let message = refused(&mut still(args));
+        assert!(message.contains(expected), "{message}");
+    }
+}

@@ -10,6 +10,7 @@ mod interrupt;
 mod replay;
 mod report;
 mod scene;
+mod still;
 mod usage;
 
 pub use console::{Console, Progress};
@@ -55,6 +56,8 @@ enum Command {
     Replay(Box<replay::Args>),
     /// Draw the figures of results, check the claims, write it all as one page
     Report(report::Args),
+    /// Look at one frame from any camera: clusters, frusta, light volumes, heat maps
+    Still(Box<still::Args>),
     /// Compare two result sets run by run: counters exactly, times against their noise
     Compare(compare::Args),
     /// List the Vulkan devices, with the limits that matter
@@ -90,6 +93,7 @@ fn dispatch(command: Command, console: &Console) -> Result<()> {
     match command {
         Command::Replay(args) => replay::run(*args, console),
         Command::Report(args) => report::run(&args, console),
+        Command::Still(args) => still::run(*args, console),
         Command::Compare(args) => compare::run(&args, console),
         Command::Devices => devices::run(console),
         Command::Scene(args) => scene::run(&args, console),

@@ -23,8 +23,13 @@ pub fn tone_map(color: [f32; 3]) -> [u8; 3] {
 }
 
 /// The sRGB transfer function (IEC 61966-2-1), linear 0..1 to encoded 0..1.
-fn srgb_encode(linear: f32) -> f32 {
+pub(crate) fn srgb_encode(linear: f32) -> f32 {
     if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// The inverse of [`srgb_encode`].
+pub(crate) fn srgb_decode(encoded: f32) -> f32 {
+    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
 /// A colour whose lightness rises with `fraction` from black at 0 to white at 1 (Green 2011, "A colour scheme for

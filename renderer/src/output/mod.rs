@@ -34,8 +34,10 @@ mod tests;
 
 pub use atomic::{remove_abandoned, write_whole};
 pub use color::{cluster_color, cubehelix, tone_map};
+pub(crate) use color::{srgb_decode, srgb_encode};
 pub use image_exr::write_exr;
 pub use manifest::{DeviceInfo, Manifest, RUN_FORMAT, Source, git_revision, rfc3339_utc};
+pub use preview::write_png;
 pub use preview::{cluster_preview, image_preview, light_preview, write_previews};
 pub use run::{PlannedRun, RunWriter, planned_runs, prepare_output, write_summary};
 pub use saved::{is_complete, saved_fingerprint, saved_means};

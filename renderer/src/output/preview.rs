@@ -24,14 +24,22 @@ pub fn write_previews(
         ("_clusters", cluster_preview(views)),
     ];
     for (suffix, preview) in previews {
-        write_whole(&directory.join(format!("{stem}{suffix}.png")), |file| {
-            preview.write_to(file, ImageFormat::Png).map_err(|error| match error {
-                image::ImageError::IoError(error) => error,
-                other => io::Error::other(other.to_string()),
-            })
-        })?;
+        write_png(&directory.join(format!("{stem}{suffix}.png")), &preview)?;
     }
     Ok(())
+}
+
+/// Writes an image as PNG.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_png(path: &Path, image: &RgbImage) -> Result<()> {
+    write_whole(path, |file| {
+        image.write_to(file, ImageFormat::Png).map_err(|error| match error {
+            image::ImageError::IoError(error) => error,
+            other => io::Error::other(other.to_string()),
+        })
+    })
 }
 
 /// The image as a display shows it.

@@ -108,6 +108,11 @@ impl Frame<'_> {
     pub fn bind(&self, r: &Recorder, point: vk::PipelineBindPoint, pipeline: &Pipeline, view: usize) {
         let clustering = self.clustering_of_view(view);
         self.bind_clustering(r, point, pipeline, clustering);
+        self.push_view(r, view);
+    }
+
+    /// Tells shaders the number of the view.
+    pub fn push_view(&self, r: &Recorder, view: usize) {
         let stages = vk::ShaderStageFlags::ALL;
         let view = (view as u32).to_ne_bytes();
         unsafe {

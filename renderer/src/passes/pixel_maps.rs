@@ -40,7 +40,8 @@ fn compute(r: &mut Recorder, frame: &Frame, view: usize) {
     unsafe { r.context.device.cmd_dispatch(r.commands, width.div_ceil(8), height.div_ceil(8), 1) };
 }
 
-fn copy_color(r: &mut Recorder, frame: &Frame, view: usize, target: &Buffer) {
+/// Copies a view's colour, one sample a pixel, to the start of `target`.
+pub fn copy_color(r: &mut Recorder, frame: &Frame, view: usize, target: &Buffer) {
     let targets = &frame.targets[view];
     let image = targets.resolved.as_ref().unwrap_or(&targets.color);
     r.access(&[

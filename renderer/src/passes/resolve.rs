@@ -16,7 +16,8 @@ pub fn record(r: &mut Recorder, frame: &Frame) {
     });
 }
 
-fn resolve(r: &mut Recorder, target: &ViewTargets, [width, height]: [u32; 2]) {
+/// Resolves one view's colour; without MSAA there is nothing to do.
+pub fn resolve(r: &mut Recorder, target: &ViewTargets, [width, height]: [u32; 2]) {
     let Some(resolved) = &target.resolved else { return };
     let aspect = vk::ImageAspectFlags::COLOR;
     r.access(&[

@@ -19,7 +19,7 @@ use ash::vk;
 use half::f16;
 
 /// The slot that atemporal frames use: each is read before the next begins.
-const SLOT: usize = 0;
+pub const SLOT: usize = 0;
 
 /// Renders and counts one frame; where `view_names` are given, its images go to `sink` too.
 pub fn count_frame(

@@ -67,6 +67,12 @@ fn sizes(
 /// Commands recorded beside a frame's own.
 pub type Commands<'a> = dyn FnMut(&mut Recorder, &Frame) + 'a;
 
+/// What the shaders of a run are specialised for.
+pub fn variant(config: &Config, method: MethodSpec, counting: bool) -> Variant {
+    let Config { msaa: samples, marking, attenuation, .. } = *config;
+    Variant { method, samples, marking, attenuation, counting }
+}
+
 /// Spare room when buffers grow, so that a camera on the move does not grow them each frame.
 const GROWTH_MARGIN: u32 = 5;
 
@@ -79,6 +85,7 @@ impl Engine {
         plans: &[FramePlan],
         (lights, capacities, counting): (u32, Capacities, bool),
     ) -> Result<Self> {
+        let variant = variant(config, method, counting);
         let sizes = sizes(config, method, plans, (lights, capacities, counting));
         sizes.check(&session.context.limits)?;
         let light_bytes = (u64::from(lights) * size_of::<LightData>() as u64).max(16);

@@ -5,13 +5,13 @@
 //!                          └─> plan (views, grids) ────────────────┴─> temporal: stage times
 //! ```
 
-mod atemporal;
+pub(crate) mod atemporal;
 mod counted;
-mod engine;
+pub(crate) mod engine;
 pub mod inputs;
 mod plan;
 mod player;
-mod session;
+pub(crate) mod session;
 mod temporal;
 mod tracer;
 

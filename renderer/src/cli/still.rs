@@ -1,0 +1,123 @@
+//! `manylight still`.
+
+use super::Console;
+use crate::config::{Config, ExrFrames, FrameRange, Layer};
+use crate::output::{planned_runs, prepare_output, write_exr, write_png};
+use crate::replay::Inputs;
+use crate::still::{Item, Show, Still, render};
+use crate::{Error, Result};
+use serde::Serialize;
+use std::fmt;
+use std::path::PathBuf;
+
+/// Arguments of `still`: what to look at, and the flags of `replay`.
+#[derive(Debug, clap::Args)]
+#[command(args_override_self = true)]
+pub struct Args {
+    /// The frame.
+    #[arg(long, value_name = "N")]
+    frame: u32,
+
+    /// The camera: a view of the recording (mono, left, right, ...), or birdseye, which looks from above and does
+    /// not touch the clustering [default: the first view].
+    #[arg(long, value_name = "NAME")]
+    view: Option<String>,
+
+    /// What to show, with commas between.
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "ITEMS")]
+    show: Vec<Item>,
+
+    /// JSON configuration over the built-in defaults; flags go over it.
+    #[arg(long, value_name = "FILE.json")]
+    config: Option<PathBuf>,
+
+    #[command(flatten)]
+    layer: Layer,
+}
+
+/// Renders the still and writes it as PNG and EXR.
+pub fn run(args: Args, console: &Console) -> Result<()> {
+    let show = Show::from_items(&args.show)?;
+    let config = configuration(&args)?;
+    let run = planned_runs(&config).remove(0);
+    let inputs = Inputs::load(&config)?;
+    prepare_output(&config.out)?;
+    let still = render(&config, &inputs, &run, args.view.as_deref(), &show)?;
+    let stem = format!("{:06}_{}_{}", args.frame, run.method, still.view);
+    let [png, exr] = ["png", "exr"].map(|extension| config.out.join(format!("{stem}.{extension}")));
+    write_png(&png, &still.image)?;
+    write_exr(&exr, std::slice::from_ref(&still.pixels))?;
+    console.result(&Written::new(&still, run.method.to_string(), [png, exr]))
+}
+
+/// One frame, one method, one lighting, nothing timed.
+fn configuration(args: &Args) -> Result<Config> {
+    let Layer { frames, runs, exr, trace, scopes, methods, lights, .. } = &args.layer;
+    let of_replay = [
+        ("frames", frames.is_some()),
+        ("runs", runs.is_some()),
+        ("exr", exr.is_some()),
+        ("trace", trace.is_some()),
+        ("scopes", scopes.is_some()),
+    ];
+    if let Some((flag, _)) = of_replay.iter().find(|(_, given)| *given) {
+        return Err(Error::input(format!("a still is one frame that is not timed: leave --{flag} out")));
+    }
+    let several = |count: Option<usize>| count.is_some_and(|count| count > 1);
+    if several(methods.as_ref().map(Vec::len)) || several(lights.as_ref().map(Vec::len)) {
+        return Err(Error::input(
+            "a still shows one method under one lighting: give --method and --lights once",
+        ));
+    }
+    let mut config = Config::resolve(args.config.as_deref(), args.layer.clone())?;
+    config.methods.truncate(1);
+    config.lights.truncate(1);
+    config.frames = FrameRange { first: args.frame, end: args.frame.checked_add(1), step: 1 };
+    config.exr = ExrFrames::List(vec![]);
+    config.trace = ExrFrames::List(vec![]);
+    Ok(config)
+}
+
+/// What was written, with what heat maps are scaled by.
+#[derive(Serialize)]
+struct Written {
+    png: PathBuf,
+    exr: PathBuf,
+    method: String,
+    frame: u32,
+    view: String,
+    visible_clusters: u64,
+    light_indices: u64,
+    most_lights: u32,
+    most_fragments: u32,
+}
+
+impl Written {
+    fn new(still: &Still, method: String, [png, exr]: [PathBuf; 2]) -> Self {
+        let most = |counts: &[u32]| counts.iter().copied().max().unwrap_or(0);
+        Self {
+            png,
+            exr,
+            method,
+            frame: still.counts.frame,
+            view: still.view.clone(),
+            visible_clusters: still.counts.visible_clusters(),
+            light_indices: still.counts.light_indices(),
+            most_lights: most(&still.pixels.light_count),
+            most_fragments: most(&still.pixels.fragment_count),
+        }
+    }
+}
+
+impl fmt::Display for Written {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { png, exr, method, frame, view, visible_clusters, light_indices, .. } = self;
+        writeln!(f, "{}\n{}", png.display(), exr.display())?;
+        write!(
+            f,
+            "{method}, frame {frame}, seen from {view}: {visible_clusters} visible clusters, {light_indices} light \
+             indices; in a pixel's cluster at most {} lights and {} fragments",
+            self.most_lights, self.most_fragments
+        )
+    }
+}

@@ -1,0 +1,98 @@
+//! The variants of what stills draw; no replay makes them.
+
+use super::{COLOR_FORMAT, DEPTH_FORMAT, Output, PipelineStore, Variant};
+use crate::Result;
+use crate::draw_list::SurfaceKind;
+use crate::passes::lines::Line;
+use crate::passes::spheres::{RINGS, SEGMENTS};
+use crate::vk::{self as gpu, GraphicsDesc, Pipeline};
+use ash::vk;
+use std::mem::offset_of;
+use std::sync::Arc;
+
+/// All pipelines of a still.
+pub struct DebugPipelines {
+    /// Opaque and masked surfaces without their shading.
+    pub clay: [Arc<Pipeline>; 2],
+    /// Clusters of pixels: by the view's own lookup, by world position. Clustered methods alone use them.
+    pub pixel_clusters: [Arc<Pipeline>; 2],
+    /// Lines: through everything, then where nothing hides them.
+    pub lines: [Arc<Pipeline>; 2],
+    /// Influence volumes of lights.
+    pub spheres: Arc<Pipeline>,
+}
+
+impl PipelineStore {
+    /// The pipelines of stills of a variant, which counts.
+    pub fn debug(&mut self, variant: &Variant) -> Result<DebugPipelines> {
+        let defines = variant.defines();
+        let clay = "debug/clay.frag";
+        let clusters = "debug/pixel_clusters.comp";
+        Ok(DebugPipelines {
+            clay: [
+                self.graphics(variant, Some(clay), Output::Shades(SurfaceKind::Opaque))?,
+                self.graphics(variant, Some(clay), Output::Shades(SurfaceKind::Masked))?,
+            ],
+            pixel_clusters: [
+                self.compute(clusters, &defines.with("WORLD_LOOKUP", 0))?,
+                self.compute(clusters, &defines.with("WORLD_LOOKUP", 1))?,
+            ],
+            lines: [self.lines(variant, true)?, self.lines(variant, false)?],
+            spheres: self.spheres(variant)?,
+        })
+    }
+
+    fn lines(&self, variant: &Variant, hidden: bool) -> Result<Arc<Pipeline>> {
+        let attribute = |(location, offset): (u32, usize)| vk::VertexInputAttributeDescription {
+            location,
+            binding: 0,
+            format: vk::Format::R32G32B32_SFLOAT,
+            offset: offset as u32,
+        };
+        let attributes =
+            [(0, offset_of!(Line, from)), (1, offset_of!(Line, to)), (2, offset_of!(Line, tint))];
+        let desc = GraphicsDesc {
+            bindings: &[vk::VertexInputBindingDescription {
+                binding: 0,
+                stride: size_of::<Line>() as u32,
+                input_rate: vk::VertexInputRate::INSTANCE,
+            }],
+            attributes: &attributes.map(attribute),
+            cull_mode: vk::CullModeFlags::NONE,
+            depth_compare: Some(if hidden { vk::CompareOp::ALWAYS } else { vk::CompareOp::GREATER_OR_EQUAL }),
+            ..overlay(variant)
+        };
+        let defines = variant.defines().with("HIDDEN", u32::from(hidden));
+        self.overlay_pipeline("debug/lines", &defines, desc)
+    }
+
+    fn spheres(&self, variant: &Variant) -> Result<Arc<Pipeline>> {
+        let defines = variant.defines().with("SPHERE_RINGS", RINGS).with("SPHERE_SEGMENTS", SEGMENTS);
+        self.overlay_pipeline("debug/spheres", &defines, overlay(variant))
+    }
+
+    fn overlay_pipeline(
+        &self,
+        stem: &str,
+        defines: &super::Defines,
+        desc: GraphicsDesc,
+    ) -> Result<Arc<Pipeline>> {
+        let vertex = self.shaders.compile(&format!("{stem}.vert"), &defines.0)?;
+        let fragment = self.shaders.compile(&format!("{stem}.frag"), &defines.0)?;
+        let desc = GraphicsDesc { vertex: &vertex, fragment: Some(&fragment), ..desc };
+        let pipeline = gpu::graphics_pipeline(&self.context, self.layouts.pipeline, &desc, stem)?;
+        Ok(Arc::new(pipeline))
+    }
+}
+
+/// Blended over the picture, hidden by the scene.
+fn overlay(variant: &Variant) -> GraphicsDesc<'static> {
+    GraphicsDesc {
+        depth_compare: Some(vk::CompareOp::GREATER_OR_EQUAL),
+        depth_format: Some(DEPTH_FORMAT),
+        color_format: Some(COLOR_FORMAT),
+        blend: true,
+        samples: vk::SampleCountFlags::from_raw(variant.samples),
+        ..Default::default()
+    }
+}

@@ -1,0 +1,65 @@
+//! The commands of a still, after its frame has ended: what one camera sees, and what lies over it.
+
+use crate::frame::Frame;
+use crate::pass::{Access, Recorder, Use};
+use crate::passes::{clay, depth, draws, lines, pixel_clusters, pixel_maps, resolve, spheres};
+use crate::pipelines::DebugPipelines;
+use crate::vk::Buffer;
+
+/// What is drawn.
+pub struct Drawing<'a> {
+    /// With what.
+    pub pipelines: &'a DebugPipelines,
+    /// The slot of the camera among the views.
+    pub view: usize,
+    /// Which of [`DebugPipelines::pixel_clusters`] looks pixels up; `None` where there are no clusters.
+    pub lookup: Option<usize>,
+    /// In which clusterings.
+    pub clusterings: Vec<usize>,
+    /// Vertex buffer of [`lines::Line`], and how many.
+    pub lines: Option<(&'a Buffer, u32)>,
+    /// Whether the lights' volumes are drawn.
+    pub spheres: bool,
+}
+
+/// Where results go.
+pub struct Outputs<'a> {
+    /// Colours of the surfaces.
+    pub clay: &'a Buffer,
+    /// Colours of lines and spheres.
+    pub overlay: &'a Buffer,
+    /// What each of the clusterings knows of the pixels.
+    pub clusterings: &'a [Buffer],
+}
+
+/// Records stage `still > depth, clay, pixel_clusters[c], overlay`.
+pub fn record(r: &mut Recorder, frame: &Frame, drawing: &Drawing, outputs: &Outputs) {
+    let view = drawing.view;
+    r.scope("still", |r| {
+        depth::record(r, frame, view);
+        clay::record(r, frame, drawing.pipelines, view);
+        copy_out(r, frame, view, outputs.clay);
+        let maps = &frame.pipelines.pixel_maps;
+        let pipeline = drawing.lookup.map_or(maps, |lookup| &drawing.pipelines.pixel_clusters[lookup]);
+        for (&clustering, output) in drawing.clusterings.iter().zip(outputs.clusterings) {
+            pixel_clusters::record(r, frame, pipeline, (view, clustering), output);
+        }
+        r.scope("overlay", |r| {
+            clay::begin_over_prepass(r, frame, view);
+            if drawing.spheres {
+                spheres::record(r, frame, drawing.pipelines, view);
+            }
+            if let Some(batch) = drawing.lines {
+                lines::record(r, frame, drawing.pipelines, view, batch);
+            }
+            draws::end_rendering(r);
+        });
+        copy_out(r, frame, view, outputs.overlay);
+    });
+}
+
+fn copy_out(r: &mut Recorder, frame: &Frame, view: usize, target: &Buffer) {
+    resolve::resolve(r, &frame.targets[view], frame.resolution);
+    pixel_maps::copy_color(r, frame, view, target);
+    r.access(&[Access::buffer(target.handle, Use::HostRead)]);
+}

@@ -1,0 +1,50 @@
+// Per pixel of the prepass: distance, and list length, fragments and index of its cluster where that is marked.
+//
+// WORLD_LOOKUP 0: the camera is one of the clustering's own views, so the cluster is the one that shading finds.
+// WORLD_LOOKUP 1: the camera only looks; the cluster is found by world position, and there may be none.
+#version 460
+#include "lib/sample_positions.glsl"
+#include "lookup/clustered.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+uint cluster_at(ViewData view, vec2 location, float depth)
+{
+#if WORLD_LOOKUP
+    vec4 world = view.world_from_view * vec4(view_position(view, location, depth), 1.0);
+    vec3 local = (grid.clustering_from_world * world).xyz;
+#if SPACE == SPACE_PERSPECTIVE
+    if (local.z >= 0.0)
+        return NO_CLUSTER;
+#endif
+    vec3 coordinates = cluster_coordinates(local);
+    if (any(lessThan(coordinates, vec3(0.0))) || any(greaterThan(coordinates, vec3(grid.dimensions))))
+        return NO_CLUSTER;
+    return linear_cluster(min(uvec3(coordinates), grid.dimensions - 1u));
+#else
+    return cluster_of_sample(view, location, depth);
+#endif
+}
+
+void main()
+{
+    ViewData view = views[push.view];
+    uvec2 pixel = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(pixel, view.resolution)))
+        return;
+    float depth = stored_depth(ivec2(pixel), 0);
+    vec2 location = vec2(pixel) + sample_position(0);
+    PixelData result = PixelData(uintBitsToFloat(0x7F800000u), 0u, 0u, NO_CLUSTER);
+    if (depth > 0.0) {
+        result.distance = -view_position(view, location, depth).z;
+        uint cluster = cluster_at(view, location, depth);
+        uint visible = cluster == NO_CLUSTER ? NO_CLUSTER : visible_index(cluster);
+        if (visible != NO_CLUSTER) {
+            LightCursor cursor = list_of_visible(visible);
+            result.light_count = cursor.end - cursor.next;
+            result.fragment_count = fragment_counts[cluster];
+            result.cluster_index = cluster;
+        }
+    }
+    pixels[pixel.y * view.resolution.x + pixel.x] = result;
+}

@@ -1,0 +1,139 @@
+//! Stills: the onlooker changes nothing, sees the grid where it is, and draws what it is asked for.
+
+use glam::{DVec2, DVec3};
+use manylight::config::{Config, FrameRange, Lighting};
+use manylight::output::planned_runs;
+use manylight::replay::{FramePlan, Inputs, plan_frames};
+use manylight::still::{Item, Show, Still, render};
+use manylight_tests::run;
+
+const FRAME: u32 = 300;
+
+fn config(recording: &str, method: &str) -> Config {
+    Config {
+        recording: recording.into(),
+        methods: vec![method.parse().unwrap()],
+        lights: vec![Lighting::with_count(100)],
+        resolution: [96, 64],
+        frames: FrameRange { first: FRAME, end: Some(FRAME + 1), step: 1 },
+        runs: 0,
+        validate: true,
+        ..Config::default()
+    }
+}
+
+fn still(config: &Config, inputs: &Inputs, view: Option<&str>, items: &[Item]) -> Still {
+    let show = Show::from_items(items).unwrap();
+    render(config, inputs, &planned_runs(config)[0], view, &show).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn plan(config: &Config, inputs: &Inputs) -> FramePlan {
+    plan_frames(config, &inputs.recording, &config.methods[0]).unwrap().remove(0)
+}
+
+/// The world position of a pixel's centre.
+fn world(still: &Still, pixel: usize) -> DVec3 {
+    let pixels = &still.pixels;
+    let (x, y) = (pixel as u32 % pixels.width, pixel as u32 / pixels.width);
+    let ndc = DVec2::new(
+        2.0 * (f64::from(x) + 0.5) / f64::from(pixels.width) - 1.0,
+        1.0 - 2.0 * (f64::from(y) + 0.5) / f64::from(pixels.height),
+    );
+    let ahead = pixels.clip_from_view.inverse().project_point3(ndc.extend(1.0));
+    let local = ahead * (f64::from(pixels.depth[pixel]) / -ahead.z);
+    pixels.world_from_view.transform_point3(local)
+}
+
+/// Where a world position lies in the picture, pixels; `None` outside.
+fn pixel_of(still: &Still, world: DVec3) -> Option<(u32, u32)> {
+    let pixels = &still.pixels;
+    let clip = pixels.clip_from_view * pixels.world_from_view.inverse() * world.extend(1.0);
+    let ndc = clip.truncate() / clip.w;
+    let x = (ndc.x + 1.0) / 2.0 * f64::from(pixels.width);
+    let y = (1.0 - ndc.y) / 2.0 * f64::from(pixels.height);
+    let inside = clip.w > 0.0
+        && (1.0..f64::from(pixels.width) - 1.0).contains(&x)
+        && (1.0..f64::from(pixels.height) - 1.0).contains(&y);
+    inside.then_some((x as u32, y as u32))
+}
+
+#[test]
+fn an_onlooker_sees_the_clusters_where_the_host_says_and_counts_as_a_replay() {
+    for method in ["encl-displ-64-32", "encl-ortho-4"] {
+        let config = config("bistro-vive", method);
+        let inputs = Inputs::load(&config).unwrap();
+        let seen = still(&config, &inputs, Some("birdseye"), &[Item::Clusters]);
+        assert_eq!(seen.counts, run(config.clone()).remove(0).counts[0], "{method}");
+        let grid = plan(&config, &inputs).grids[0];
+        let clustered: Vec<usize> =
+            (0..seen.pixels.depth.len()).filter(|&p| seen.pixels.cluster_index[p] != u32::MAX).collect();
+        let agree = clustered
+            .iter()
+            .filter(|&&pixel| {
+                let cluster = grid.cluster_of(world(&seen, pixel)).map(|cell| grid.linear(cell));
+                cluster == Some(seen.pixels.cluster_index[pixel])
+            })
+            .count();
+        assert!(clustered.len() > 200, "{method}: {} pixels with clusters", clustered.len());
+        // The rest lies on the border of a cluster, where single and double precision part.
+        assert!(100 * agree >= 99 * clustered.len(), "{method}: {agree} of {}", clustered.len());
+        let hit = seen.pixels.depth.iter().filter(|depth| depth.is_finite()).count();
+        assert!(hit > clustered.len(), "{method}: from above, something has no visible cluster");
+    }
+}
+
+#[test]
+fn the_views_of_the_recording_miss_no_cluster_and_onlookers_do() {
+    let config = config("bistro-vive", "indi-persp-64");
+    let inputs = Inputs::load(&config).unwrap();
+    let magenta =
+        |still: &Still| still.image.pixels().filter(|p| p[0] > 60 && p[1] == 0 && p[0] == p[2]).count();
+    for view in ["left", "right"] {
+        let seen = still(&config, &inputs, Some(view), &[Item::Missing, Item::LightCount]);
+        assert_eq!(magenta(&seen), 0, "{view}");
+        let known = seen.pixels.cluster_index.iter().zip(&seen.pixels.depth);
+        assert!(known.clone().any(|(_, depth)| depth.is_finite()));
+        assert!(known.into_iter().all(|(&cluster, depth)| (cluster == u32::MAX) == depth.is_infinite()));
+        assert!(seen.pixels.fragment_count.iter().any(|&count| count > 0));
+    }
+    let seen = still(&config, &inputs, Some("birdseye"), &[Item::Missing]);
+    assert!(magenta(&seen) > 100);
+}
+
+#[test]
+fn frusta_reach_their_corners_and_lights_tint_the_picture() {
+    let config = Config { msaa: 4, ..config("bistro", "indi-displ-64-32") };
+    let inputs = Inputs::load(&config).unwrap();
+    let plain = still(&config, &inputs, Some("birdseye"), &[]);
+    let lines = still(&config, &inputs, Some("birdseye"), &[Item::Frusta]);
+    let differs = |a: &Still, (x, y): (u32, u32)| {
+        (x - 1..=x + 1)
+            .flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)))
+            .any(|(x, y)| a.image.get_pixel(x, y) != plain.image.get_pixel(x, y))
+    };
+    let plan = plan(&config, &inputs);
+    // Corners of the near plane, and points of the edges that lead to the far one.
+    let (near, far) = (plan.views[0].frustum.near_corners(), plan.views[0].frustum.far_corners());
+    let points = (0..4).flat_map(|i| [0.0, 0.05, 0.1, 0.2, 0.5, 1.0].map(|part| near[i].lerp(far[i], part)));
+    let corners: Vec<_> = points.map(|point| plan.views[0].pose.transform_point(point)).collect();
+    let visible: Vec<_> = corners.iter().filter_map(|&corner| pixel_of(&lines, corner)).collect();
+    assert!(visible.len() >= 12, "{visible:?}");
+    assert!(visible.iter().all(|&corner| differs(&lines, corner)), "{visible:?}");
+    let lights = still(&config, &inputs, Some("birdseye"), &[Item::Lights]);
+    let changed = lights.image.pixels().zip(plain.image.pixels()).filter(|(a, b)| a != b).count();
+    assert!(changed > 500, "{changed}");
+    assert_eq!(lights.pixels.depth, plain.pixels.depth, "what is drawn over a picture has no depth");
+}
+
+#[test]
+fn what_cannot_be_shown_is_refused_before_the_device_is_asked() {
+    let config = config("bistro", "all-lights");
+    let inputs = Inputs::load(&config).unwrap();
+    let runs = planned_runs(&config);
+    let refused = |view, items: &[Item]| {
+        let show = Show::from_items(items).unwrap();
+        render(&config, &inputs, &runs[0], view, &show).err().map(|error| error.to_string()).unwrap()
+    };
+    assert!(refused(None, &[Item::Clusters]).contains("all-lights has no clusters"));
+    assert!(refused(Some("left"), &[Item::Frusta]).contains("birdseye"));
+}
