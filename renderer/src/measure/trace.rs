@@ -1,6 +1,7 @@
 //! When stages ran, for traces.
 
-/// When one stage of one frame ran: nanoseconds from the start of the trace, each clock from its own.
+/// When one stage of one frame ran, nanoseconds. Host and device have a clock each, and how far apart they are is not
+/// measured: the device's is placed so that its first stage begins where the first frame's recording ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct StageSpan {
     /// Path in the stage tree, such as `frame/cluster[0]/count_lights`.
