@@ -35,8 +35,8 @@ pub mod recording;
 pub mod replay;
 pub mod report;
 pub mod scene;
-pub mod sweep;
 pub mod still;
+pub mod sweep;
 pub mod views;
 pub mod vk;
 

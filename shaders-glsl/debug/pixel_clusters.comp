@@ -42,7 +42,7 @@ void main()
         if (visible != NO_CLUSTER) {
             LightCursor cursor = list_of_visible(visible);
             result.light_count = cursor.end - cursor.next;
-            result.fragment_count = fragment_counts[cluster];
+            result.fragment_count = visible_fragments[visible];
             result.cluster_index = cluster;
         }
     }

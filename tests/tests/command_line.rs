@@ -351,7 +351,7 @@ fn a_trace_has_every_stage_of_the_chosen_frames_inside_its_parent() {
         let trace: serde_json::Value =
             serde_json::from_str(&read(out.path().join(run).join("trace.json"))).unwrap();
         let number = |value: &serde_json::Value| value.as_f64().expect("a number");
-        let mut spans = std::collections::BTreeMap::new();
+        let mut spans = BTreeMap::new();
         for event in trace["traceEvents"].as_array().unwrap() {
             if event["ph"] == "M" {
                 continue;

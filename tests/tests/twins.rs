@@ -51,8 +51,8 @@ fn square(directory: &Path, distance: f32, [near, far]: [f64; 2], light: &PointL
         ]
     });
     std::fs::write(file("waypoints.json"), waypoints.to_string()).unwrap();
-    let recording = manylight::recording::bake(file("waypoints.json").as_ref()).unwrap();
-    recording.save(file("still.json").as_ref()).unwrap();
+    let recording = manylight::recording::bake(file("waypoints.json")).unwrap();
+    recording.save(file("still.json")).unwrap();
     let PointLight { position: [x, y, z], intensity, cutoff, r0, .. } = light;
     let row = format!("x,y,z,r,g,b,i,i0,r0\n{x},{y},{z},1,1,1,{intensity},{cutoff},{r0}\n");
     std::fs::write(file("lights.csv"), row).unwrap();

@@ -23,7 +23,7 @@ pub fn record(
             Access::buffer(b.cluster_bits.handle, Use::ComputeRead),
             Access::buffer(b.word_ranks.handle, Use::ComputeRead),
             Access::buffer(b.list_offsets.handle, Use::ComputeRead),
-            Access::buffer(b.fragment_counts.handle, Use::ComputeRead),
+            Access::buffer(b.visible_fragments.handle, Use::ComputeRead),
         ]);
         frame.bind_clustering(r, vk::PipelineBindPoint::COMPUTE, pipeline, clustering);
         frame.push_view(r, view);

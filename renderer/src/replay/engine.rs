@@ -38,7 +38,8 @@ pub struct Engine {
     pub growth: Vec<GrowthEvent>,
 }
 
-fn variant(config: &Config, method: MethodSpec, counting: bool) -> Variant {
+/// What the shaders of a run are specialised for.
+pub fn variant(config: &Config, method: MethodSpec, counting: bool) -> Variant {
     Variant {
         method,
         samples: config.msaa,
@@ -67,12 +68,6 @@ fn sizes(
 /// Commands recorded beside a frame's own.
 pub type Commands<'a> = dyn FnMut(&mut Recorder, &Frame) + 'a;
 
-/// What the shaders of a run are specialised for.
-pub fn variant(config: &Config, method: MethodSpec, counting: bool) -> Variant {
-    let Config { msaa: samples, marking, attenuation, .. } = *config;
-    Variant { method, samples, marking, attenuation, counting }
-}
-
 /// Spare room when buffers grow, so that a camera on the move does not grow them each frame.
 const GROWTH_MARGIN: u32 = 5;
 
@@ -85,7 +80,6 @@ impl Engine {
         plans: &[FramePlan],
         (lights, capacities, counting): (u32, Capacities, bool),
     ) -> Result<Self> {
-        let variant = variant(config, method, counting);
         let sizes = sizes(config, method, plans, (lights, capacities, counting));
         sizes.check(&session.context.limits)?;
         let light_bytes = (u64::from(lights) * size_of::<LightData>() as u64).max(16);
