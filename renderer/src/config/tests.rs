@@ -67,6 +67,14 @@ fn mistakes_in_files_are_named_with_line_column_and_nearest_name() {
             "line 1, column 13: lights[0]: r0 0.1: it must be below the influence radius sqrt(I/I0) = 0.05",
         ),
         (
+            "{\"scenes\": []}",
+            "line 1, column 12: scenes: no scene: give at least one with its recording, or leave the field out",
+        ),
+        (
+            "{\"exclude\": [{\"method\": \"encl-orto-4\"}]}",
+            "exclude: the rule method=encl-orto-4 matches no run: mend its names, or leave it out",
+        ),
+        (
             "{\n\"methods\": []}",
             "line 2, column 12: methods: no method: name at least one, such as indi-persp-64",
         ),
@@ -180,6 +188,11 @@ fn a_resolved_configuration_is_a_configuration_file_again() {
     let configs = [
         Config::default(),
         Config { lights: Vec::new(), scene_lights: true, exr: ExrFrames::All, ..Config::default() },
+        Config {
+            scenes: vec!["street=bistro,8x4".parse().unwrap(), "temple=suntem,5..9".parse().unwrap()],
+            exclude: vec!["scene=street|temple,lights=1000,method=indi-*".parse().unwrap()],
+            ..Config::default()
+        },
         Config { lights: Vec::new(), lights_file: Some("l.csv".into()), msaa: 4, ..Config::default() },
         Config {
             shaders: Some("glsl".into()),
@@ -229,6 +242,50 @@ fn bundled_configurations_say_what_they_should() {
         ..Config::default()
     };
     assert_eq!(tuned, expected);
+}
+
+#[test]
+fn bundled_sweeps_are_the_experiments_of_the_thesis() {
+    let names = |file: &str| {
+        let config = Config::resolve(Some(&repository(file)), Layer::default()).unwrap();
+        let parts = crate::sweep::parts(&config).unwrap();
+        for part in &parts {
+            let eye = part.config.recording.ends_with("-vive");
+            let [width, height] = part.config.resolution;
+            assert_eq!(
+                (width, height),
+                if eye { (height * 8 / 9, height) } else { (height * 16 / 9, height) }
+            );
+            assert_eq!(part.config.runs, 4);
+        }
+        let names = parts.iter().flat_map(|part| part.runs.iter().map(|run| part.full_name(run)));
+        names.collect::<Vec<_>>()
+    };
+    for file in ["configs/thesis.json", "configs/thesis-street.json"] {
+        let names = names(file);
+        // Nineteen methods in mono and six in stereo, under three lightings, in two scenes.
+        assert_eq!(names.len(), (19 + 6) * 3 * 2, "{file}");
+        let count = |part: &str| names.iter().filter(|name| name.contains(part)).count();
+        assert_eq!((count("vive/indi-"), count("vive/encl-"), count("encl-")), (18, 18, 18), "{file}");
+    }
+    let all = names("configs/thesis-street.json");
+    let small = names("configs/thesis-ci.json");
+    assert!(small.iter().all(|name| all.contains(name)));
+}
+
+#[test]
+fn scenes_replace_each_other_as_one() {
+    let entries = |layers: &[&str]| resolved(layers).unwrap().scene_entries();
+    let two = r#"{"scenes": [{"scene": "street", "recording": "bistro", "resolution": [8, 4], "frames": "5"},
+        {"scene": "temple", "recording": "suntem"}]}"#;
+    let read = |text: &str| text.parse::<SceneEntry>().unwrap();
+    assert_eq!(entries(&[]), [read("street=bistro-vive")]);
+    assert_eq!(entries(&[two]), [read("street=bistro,8x4,5"), read("temple=suntem")]);
+    assert_eq!(entries(&[two, r#"{"frames": "9"}"#])[0], read("street=bistro,8x4"));
+    assert_eq!(entries(&[two, r#"{"resolution": [2, 2]}"#])[0], read("street=bistro,5"));
+    assert_eq!(entries(&[two, r#"{"recording": "bistro"}"#]), [read("street=bistro")]);
+    let error = resolved(&[r#"{"scene": "a", "scenes": [{"scene": "b", "recording": "c"}]}"#]).unwrap_err();
+    assert!(error.to_string().contains("exclude"), "{error}");
 }
 
 /// `MANYLIGHT_BLESS=1` rewrites the schema.

@@ -47,10 +47,11 @@ pub struct Sweep<'a> {
     under_way: bool,
 }
 
-/// A part that is open: its inputs, and the fingerprint of each of its runs that is to be made.
+/// A part whose inputs are loaded.
 struct Open<'a> {
     part: &'a Part,
     inputs: &'a Inputs,
+    /// Frames that one run submits.
     frames: u64,
 }
 
