@@ -8,7 +8,8 @@ layout(location = 2) flat in uint material_index;
 
 void main()
 {
+    TextureCoordinates at = texture_coordinates(uv);
     MaterialData material = materials[material_index];
-    if (base_color(material, uv, color).a < material.alpha_cutoff)
+    if (base_color(material, at, color).a < material.alpha_cutoff)
         discard;
 }

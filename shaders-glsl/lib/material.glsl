@@ -9,14 +9,32 @@ layout(set = SET_MATERIAL, binding = 2) uniform sampler2D normal_texture;
 layout(set = SET_MATERIAL, binding = 3) uniform sampler2D occlusion_texture;
 layout(set = SET_MATERIAL, binding = 4) uniform sampler2D emissive_texture;
 
-// Coordinates of one of the five textures: its uv set through its affine transform.
-vec2 texture_uv(MaterialData material, uint slot, vec4 uv)
+// Both sets of texture coordinates of a fragment, and how they change from pixel to pixel.
+struct TextureCoordinates {
+    vec4 uv, dx, dy;
+};
+
+// Derivatives are taken of the interpolated coordinates alone, before any branch: what helper invocations read from
+// buffers, such as a material's transform, is nothing on llvmpipe, and every edge would get the coarsest mip level.
+TextureCoordinates texture_coordinates(vec4 uv)
 {
-    vec3 source = vec3((material.uv_slots >> slot & 1u) == 0u ? uv.xy : uv.zw, 1.0);
-    return vec2(dot(material.uv_rows[2u * slot], source), dot(material.uv_rows[2u * slot + 1u], source));
+    return TextureCoordinates(uv, dFdx(uv), dFdy(uv));
 }
 
-vec4 base_color(MaterialData material, vec4 uv, vec4 color)
+// One of the five textures: its uv set through its affine transform.
+vec4 sample_texture(sampler2D image, MaterialData material, uint slot, TextureCoordinates at)
 {
-    return material.base_color * color * texture(base_color_texture, texture_uv(material, 0u, uv));
+    bool second = (material.uv_slots >> slot & 1u) != 0u;
+    vec3 row0 = material.uv_rows[2u * slot];
+    vec3 row1 = material.uv_rows[2u * slot + 1u];
+    mat2 linear = transpose(mat2(row0.xy, row1.xy));
+    vec2 uv = linear * (second ? at.uv.zw : at.uv.xy) + vec2(row0.z, row1.z);
+    vec2 dx = linear * (second ? at.dx.zw : at.dx.xy);
+    vec2 dy = linear * (second ? at.dy.zw : at.dy.xy);
+    return textureGrad(image, uv, dx, dy);
+}
+
+vec4 base_color(MaterialData material, TextureCoordinates at, vec4 color)
+{
+    return material.base_color * color * sample_texture(base_color_texture, material, 0u, at);
 }

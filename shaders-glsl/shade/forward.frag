@@ -27,12 +27,12 @@ const float AMBIENT = 0.02;
 // Shown where a fragment's cluster is missing (Gelderen figure 5.1).
 const vec3 MISSING_CLUSTER = vec3(1.0, 0.0, 1.0);
 
-vec3 shading_normal(MaterialData material)
+vec3 shading_normal(MaterialData material, TextureCoordinates at)
 {
     float facing = gl_FrontFacing ? 1.0 : -1.0;
     vec3 n = normalize(normal);
     vec3 t = tangent.xyz - n * dot(n, tangent.xyz);
-    vec3 mapped = texture(normal_texture, texture_uv(material, 2u, uv)).xyz * 2.0 - 1.0;
+    vec3 mapped = sample_texture(normal_texture, material, 2u, at).xyz * 2.0 - 1.0;
     mapped.xy *= material.normal_scale;
     if (dot(t, t) < 1e-12)
         return facing * n;
@@ -41,23 +41,24 @@ vec3 shading_normal(MaterialData material)
     return facing * normalize(t * mapped.x + b * mapped.y + n * mapped.z);
 }
 
-Surface surface_at(MaterialData material, ViewData view, vec3 base)
+Surface surface_at(MaterialData material, TextureCoordinates at, ViewData view, vec3 base)
 {
     vec3 position = (view.world_from_view * vec4(view_position(view, fragment_pixel(), gl_FragCoord.z), 1.0)).xyz;
-    vec4 metallic_roughness = texture(metallic_roughness_texture, texture_uv(material, 1u, uv));
+    vec4 metallic_roughness = sample_texture(metallic_roughness_texture, material, 1u, at);
     float metallic = clamp(material.metallic * metallic_roughness.b, 0.0, 1.0);
     float roughness = clamp(material.roughness * metallic_roughness.g, 0.05, 1.0);
-    return Surface(position, shading_normal(material), normalize(view.world_from_view[3].xyz - position),
+    return Surface(position, shading_normal(material, at), normalize(view.world_from_view[3].xyz - position),
                    base * (1.0 - metallic), mix(vec3(0.04), base, metallic), roughness * roughness);
 }
 
 void main()
 {
+    TextureCoordinates at = texture_coordinates(uv);
     if (is_background())
         discard;
     ViewData view = views[push.view];
     MaterialData material = materials[material_index];
-    vec4 base = base_color(material, uv, color);
+    vec4 base = base_color(material, at, color);
     LightCursor cursor;
     if (!find_lights(view, fragment_pixel(), gl_FragCoord.z, cursor)) {
         count(COUNTER_FRAGMENTS_SHADED, 1u);
@@ -65,10 +66,10 @@ void main()
         out_color = vec4(MISSING_CLUSTER, 1.0);
         return;
     }
-    float occlusion = texture(occlusion_texture, texture_uv(material, 3u, uv)).r;
+    float occlusion = sample_texture(occlusion_texture, material, 3u, at).r;
     vec3 radiance = AMBIENT * base.rgb * mix(1.0, occlusion, material.occlusion_strength);
-    radiance += material.emissive * texture(emissive_texture, texture_uv(material, 4u, uv)).rgb;
-    radiance += shade_lights(surface_at(material, view, base.rgb), cursor);
+    radiance += material.emissive * sample_texture(emissive_texture, material, 4u, at).rgb;
+    radiance += shade_lights(surface_at(material, at, view, base.rgb), cursor);
     // Half floats end at 65504; a light grazed at R0 may exceed that.
     out_color = vec4(min(radiance, vec3(65504.0)), TRANSPARENT != 0 ? base.a : 1.0);
 }
