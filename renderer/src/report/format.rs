@@ -6,7 +6,7 @@ pub fn grouped(value: u64) -> String {
     let mut text = String::new();
     for (place, digit) in digits.chars().enumerate() {
         // Four digits read well together.
-        if place > 0 && (digits.len() - place) % 3 == 0 && digits.len() > 4 {
+        if place > 0 && (digits.len() - place).is_multiple_of(3) && digits.len() > 4 {
             text.push('\u{202f}');
         }
         text.push(digit);

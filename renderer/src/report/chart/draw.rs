@@ -251,8 +251,8 @@ fn draw_heat(svg: &mut Svg, heat: &Heat, x: Scale, [left, top, width, height]: [
 /// Powers of two: `512`, `4Ki`.
 fn binary(value: u64) -> String {
     match value {
-        v if v >= 1 << 20 && v % (1 << 20) == 0 => format!("{}Mi", v >> 20),
-        v if v >= 1 << 10 && v % (1 << 10) == 0 => format!("{}Ki", v >> 10),
+        v if v >= 1 << 20 && v.is_multiple_of(1 << 20) => format!("{}Mi", v >> 20),
+        v if v >= 1 << 10 && v.is_multiple_of(1 << 10) => format!("{}Ki", v >> 10),
         v => v.to_string(),
     }
 }

@@ -19,7 +19,7 @@ impl Scale {
 
 /// Round numbers (1, 2 or 5 times a power of ten apart) within low..=high, about `wanted` of them.
 pub fn ticks(low: f64, high: f64, wanted: usize) -> Vec<f64> {
-    if !(high > low) || wanted == 0 {
+    if high <= low || wanted == 0 {
         return vec![low];
     }
     let step = round_step((high - low) / wanted as f64);
@@ -30,7 +30,7 @@ pub fn ticks(low: f64, high: f64, wanted: usize) -> Vec<f64> {
 
 /// The end of an axis from 0 that holds `most`: the next tick, or a little room.
 pub fn nice_top(most: f64, wanted: usize) -> f64 {
-    if !(most > 0.0) {
+    if most <= 0.0 {
         return 1.0;
     }
     let step = round_step(most / wanted.max(1) as f64) / 2.0;

@@ -42,7 +42,7 @@ impl<'a> Table<'a> {
         })
     }
 
-    /// Gives every record with its line; cells are then read by [`cell`].
+    /// Gives every record with its line; cells are then read by [`Row::cell`].
     fn each(mut self, mut take: impl FnMut(&Row<'_>) -> Result<()>) -> Result<()> {
         let mut record = StringRecord::new();
         loop {
@@ -70,7 +70,10 @@ impl Row<'_> {
     }
 
     fn optional(&self, column: usize) -> Result<Option<f64>> {
-        if self.record.get(column).is_none_or(str::is_empty) { Ok(None) } else { self.cell(column).map(Some) }
+        if self.record.get(column).is_none_or(str::is_empty) {
+            return Ok(None);
+        }
+        self.cell(column).map(|value: f64| Some(value).filter(|value| value.is_finite()))
     }
 }
 
