@@ -194,8 +194,8 @@ const FRAGMENTS: Wanted<'static> = Wanted {
     id: "",
     title: "Clusters by fragment count",
     caption: "How many clusters (colour, logarithmic) have how many fragments (vertical: single values up to 7, then \
-              four rows an octave), frame by frame. A cluster of Persp 64 cannot have more than 64² fragments at one \
-              sample a pixel.",
+              four rows an octave), frame by frame. Opaque surfaces give a \
+              cluster of Persp 64 at most 64² fragments at one sample a pixel; transparent ones add theirs.",
     missing: "",
 };
 
