@@ -8,6 +8,7 @@ use std::str::FromStr;
 
 /// One scene of the axis as JSON carries it.
 #[derive(Deserialize, JsonSchema)]
+#[schemars(rename = "SceneEntry")]
 #[serde(
     deny_unknown_fields,
     expecting = "an object with a scene and a recording, and maybe resolution and frames"

@@ -55,6 +55,9 @@ struct Open<'a> {
     frames: u64,
 }
 
+/// Runs to make, each with its fingerprint.
+type Pending<'r> = Vec<(&'r PlannedRun, String)>;
+
 impl<'a> Sweep<'a> {
     /// Checks all that can be checked without a device or a scene in memory. With `force`, complete runs are made again.
     ///
@@ -124,7 +127,7 @@ impl<'a> Sweep<'a> {
 
     fn run_part(&mut self, open: &Open, device: &DeviceInfo, shaders: &str) -> Result<()> {
         let fingerprint = Fingerprint::new(&open.part.config, open.inputs, device, shaders)?;
-        let mut pending = Vec::new();
+        let mut pending: Pending = Vec::new();
         for run in &open.part.runs {
             let wanted = fingerprint.of(&open.part.run_config(run))?;
             if !self.force && saved_fingerprint(&open.part.path(run)).is_some_and(|saved| saved == wanted) {
@@ -159,15 +162,15 @@ impl<'a> Sweep<'a> {
     fn checked<'o, 'r>(
         &mut self,
         open: &Open<'o>,
-        pending: Vec<(&'r PlannedRun, String)>,
-    ) -> Result<(Option<Player<'o>>, Vec<(&'r PlannedRun, String)>)> {
+        pending: Pending<'r>,
+    ) -> Result<(Option<Player<'o>>, Pending<'r>)> {
         let mut player = match Player::new(&open.part.config, open.inputs) {
             Ok(player) => player,
             Err(error) if !self.under_way => return Err(error),
             // Tried again, and recorded, run by run.
             Err(_) => return Ok((None, pending)),
         };
-        let mut playable = Vec::new();
+        let mut playable: Pending = Vec::new();
         for (run, fingerprint) in pending {
             match player.check(run) {
                 Ok(()) => playable.push((run, fingerprint)),
