@@ -4,10 +4,12 @@
 //! cluster_bits ─> word_ranks, visible_clusters ─> segment_counts ─> list_offsets ─> light_indices
 //! ```
 
+use crate::assign::{self, Assigner};
 use crate::frame::SLOTS;
 use crate::geometry::{ClusterSpace, Grid};
 use crate::gpu_interface::{
-    BUFFERS, COUNTER_COUNT, ClusteringState, DispatchSize, GridData, PixelData, SCAN_BLOCK, ViewData,
+    BUFFERS, COUNTER_COUNT, ClusteringState, DISPATCH_COUNT, DispatchSize, GridData, LightNode, PixelData,
+    SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS, ViewData,
 };
 use crate::layouts::{DescriptorSets, Layouts, write_buffer_set};
 use crate::measure::Capacities;
@@ -31,6 +33,8 @@ pub struct ClusteringSizes {
     pub lights: u32,
     /// Entries.
     pub capacities: Capacities,
+    /// How the lists are built.
+    pub assigner: Assigner,
     /// Whether the atemporal run's buffers are there.
     pub counting: bool,
     /// Pixels of a view.
@@ -58,11 +62,33 @@ impl ClusteringSizes {
         u64::from(self.capacities.visible_clusters) * u64::from(segments(self.lights).0)
     }
 
+    /// Whether lists are kept as bits while they are counted.
+    fn keeps_bits(&self) -> bool {
+        self.assigner.keeps_bits(self.lights, self.capacities.visible_clusters)
+    }
+
+    /// Words of the bits of all lists.
+    fn mask_words(&self) -> u64 {
+        let words = if self.keeps_bits() { assign::mask_words(self.lights) } else { 0 };
+        self.list_segments() * u64::from(words)
+    }
+
+    /// Lights in the hierarchy.
+    fn tree_lights(&self) -> u64 {
+        if self.assigner == Assigner::Hierarchy { u64::from(self.lights) } else { 0 }
+    }
+
+    /// Counts of the digits of all blocks of the sort.
+    fn digit_counts(&self) -> u64 {
+        self.tree_lights().div_ceil(u64::from(SORT_BLOCK)) * u64::from(SORT_DIGITS)
+    }
+
     /// Bytes of each buffer, in binding order of those that [`ClusteringBuffers`] makes.
-    fn bytes(&self) -> [(&'static str, u64); 13] {
+    fn bytes(&self) -> [(&'static str, u64); 19] {
         let counting = u64::from(self.counting);
         let visible = u64::from(self.capacities.visible_clusters);
-        let blocks = self.words().max(self.list_segments()).div_ceil(u64::from(SCAN_BLOCK));
+        let nodes = if self.tree_lights() > 0 { assign::tree_nodes(self.lights) } else { 0 };
+        let blocks = self.scan_items().div_ceil(u64::from(SCAN_BLOCK));
         [
             ("light_spheres", 16 * u64::from(self.lights)),
             ("cluster_bits", 4 * self.words()),
@@ -73,11 +99,22 @@ impl ClusteringSizes {
             ("list_offsets", 4 * (self.list_segments() + 1)),
             ("light_indices", 4 * u64::from(self.capacities.light_indices)),
             ("state", size_of::<ClusteringState>() as u64),
-            ("dispatches", 2 * size_of::<DispatchSize>() as u64),
+            ("dispatches", u64::from(DISPATCH_COUNT) * size_of::<DispatchSize>() as u64),
             ("counters", 8 * COUNTER_COUNT as u64),
             ("visible_fragments", 4 * visible * counting),
             ("lights_per_fragment", 4 * (u64::from(self.lights) + 1) * counting),
+            ("light_masks", 4 * self.mask_words()),
+            ("sort_items", 2 * 8 * self.tree_lights()),
+            ("digit_counts", 4 * self.digit_counts()),
+            ("tree_spheres", 16 * self.tree_lights()),
+            ("tree_lights", 4 * self.tree_lights()),
+            ("light_nodes", size_of::<LightNode>() as u64 * nodes),
         ]
+    }
+
+    /// Items of the longest prefix sum.
+    fn scan_items(&self) -> u64 {
+        self.words().max(self.list_segments()).max(self.digit_counts())
     }
 
     /// Refuses what the device cannot hold or dispatch, naming the largest fault.
@@ -95,7 +132,7 @@ impl ClusteringSizes {
                 )));
             }
         }
-        let groups = self.list_segments().max(self.words()).div_ceil(u64::from(SCAN_BLOCK));
+        let groups = self.scan_items().div_ceil(u64::from(SCAN_BLOCK));
         let most = u64::from(limits.max_compute_work_group_count[0]);
         if groups > most {
             return Err(Error::Device(format!(
@@ -138,6 +175,18 @@ pub struct ClusteringBuffers {
     pub lights_per_fragment: Buffer,
     /// [`PixelData`] of one view.
     pub pixels: Buffer,
+    /// Bits of the lists, a bit per light; few lights alone.
+    pub light_masks: Buffer,
+    /// (Key, light), two halves.
+    pub sort_items: Buffer,
+    /// Of the sort, by digit, then by block.
+    pub digit_counts: Buffer,
+    /// `light_spheres` in the order of the hierarchy.
+    pub tree_spheres: Buffer,
+    /// Their indices.
+    pub tree_lights: Buffer,
+    /// The nodes of the hierarchy.
+    pub light_nodes: Buffer,
 }
 
 impl ClusteringBuffers {
@@ -164,6 +213,12 @@ impl ClusteringBuffers {
             visible_fragments: make("visible_fragments")?,
             lights_per_fragment: make("lights_per_fragment")?,
             pixels: device_buffer(context, "pixels", pixels)?,
+            light_masks: make("light_masks")?,
+            sort_items: make("sort_items")?,
+            digit_counts: make("digit_counts")?,
+            tree_spheres: make("tree_spheres")?,
+            tree_lights: make("tree_lights")?,
+            light_nodes: make("light_nodes")?,
         })
     }
 }
@@ -202,6 +257,8 @@ pub struct Clustering {
     pub views: Range<usize>,
     /// Words of visibility bits of this frame's grid.
     pub word_count: u32,
+    /// Whether lists are kept as bits while they are counted.
+    pub masked: bool,
     _sets: DescriptorSets,
 }
 
@@ -223,7 +280,15 @@ impl Clustering {
         for (slot, grid) in grids.iter().enumerate() {
             write_buffer_set(context, sets.sets[slot], &handles(&buffers, shared, slot, grid));
         }
-        Ok(Self { buffers, grids, sets: [sets.sets[0], sets.sets[1]], views, word_count: 0, _sets: sets })
+        Ok(Self {
+            buffers,
+            grids,
+            sets: [sets.sets[0], sets.sets[1]],
+            views,
+            word_count: 0,
+            masked: sizes.keeps_bits(),
+            _sets: sets,
+        })
     }
 }
 
@@ -254,12 +319,18 @@ fn handles(
         &b.pixels,
         shared.materials,
         shared.instances,
+        &b.light_masks,
+        &b.sort_items,
+        &b.digit_counts,
+        &b.tree_spheres,
+        &b.tree_lights,
+        &b.light_nodes,
     ]
     .map(|buffer| buffer.handle)
 }
 
 /// A grid as shaders read it.
-pub fn grid_data(grid: &Grid, lights: u32, capacities: Capacities) -> GridData {
+pub fn grid_data(grid: &Grid, lights: u32, sizes: &ClusteringSizes) -> GridData {
     let dimensions = glam::DVec3::from_array(grid.dimensions.map(f64::from));
     let (origin, cell, reach) = match grid.space {
         ClusterSpace::Perspective { frustum: f, ratio } => (
@@ -276,6 +347,7 @@ pub fn grid_data(grid: &Grid, lights: u32, capacities: Capacities) -> GridData {
         }
     };
     let (segment_count, segment_size) = segments(lights);
+    let (low, high) = bounds(grid);
     GridData {
         clustering_from_world: rigid_inverse(&grid.pose),
         dimensions: grid.dimensions,
@@ -287,9 +359,26 @@ pub fn grid_data(grid: &Grid, lights: u32, capacities: Capacities) -> GridData {
         light_count: lights,
         segment_count,
         segment_size,
-        visible_capacity: capacities.visible_clusters,
-        index_capacity: capacities.light_indices,
+        visible_capacity: sizes.capacities.visible_clusters,
+        index_capacity: sizes.capacities.light_indices,
+        mask_words: if sizes.keeps_bits() { assign::mask_words(lights) } else { 0 },
+        sort_passes: assign::sort_passes(lights),
+        tree_depth: assign::tree_depth(lights),
+        bounds_low: low.as_vec3().to_array(),
+        bounds_scale: (1024.0 / (high - low)).as_vec3().to_array(),
     }
+}
+
+/// Lowest and highest corner of a grid in clustering space.
+fn bounds(grid: &Grid) -> (glam::DVec3, glam::DVec3) {
+    let last = grid.dimensions.map(|count| count - 1);
+    let (mut low, mut high) = (glam::DVec3::INFINITY, glam::DVec3::NEG_INFINITY);
+    for corner in 0..8 {
+        let cell = std::array::from_fn(|axis| if corner >> axis & 1 == 1 { last[axis] } else { 0 });
+        let (cell_low, cell_high) = grid.cell_bounds(cell);
+        (low, high) = (low.min(cell_low), high.max(cell_high));
+    }
+    (low, high)
 }
 
 /// What the lookup over all lights reads: no grid, every light.

@@ -1,13 +1,14 @@
 //! The frame: which passes run, in which order, for every method. Nothing is reordered, so what is written
 //! here is what is measured.
 
+use crate::assign::Assigner;
 use crate::clustering::Clustering;
 use crate::config::Marking;
 use crate::draw_list::DrawList;
 use crate::gpu_scene::GpuScene;
 use crate::layouts::Layouts;
 use crate::pass::Recorder;
-use crate::passes::{assign, depth, lights, mark, readback, resolve, scan, shade};
+use crate::passes::{assign, depth, hierarchy, lights, mark, readback, resolve, scan, shade};
 use crate::pipelines::Pipelines;
 use crate::vk::{Buffer, Image};
 use ash::vk;
@@ -45,6 +46,8 @@ pub struct Frame<'a> {
     pub clustered: bool,
     /// Marking strategy.
     pub marking: Marking,
+    /// How the light lists are built.
+    pub assigner: Assigner,
     /// The lights on the device.
     pub lights: &'a Buffer,
     /// The lights as the host wrote them.
@@ -100,6 +103,9 @@ fn cluster(r: &mut Recorder, frame: &Frame, clustering: usize) {
     }
     scan::compact(r, frame, clustering);
     assign::transform_lights(r, frame, clustering);
+    if frame.assigner == Assigner::Hierarchy {
+        hierarchy::build_hierarchy(r, frame, clustering);
+    }
     assign::count_lights(r, frame, clustering);
     scan::light_offsets(r, frame, clustering);
     assign::assign_lights(r, frame, clustering);

@@ -7,6 +7,9 @@
 //! lights ─────> light_spheres ────────────────────────────────────┘   (count_lights)                         │
 //!               (transform_lights)             └──────────────────────────> light_indices (assign_lights) <──┘
 //! ```
+//!
+//! Assignment by hierarchy or scatter goes to `segment_counts` by way of `light_masks` where lights are few, and the
+//! hierarchy puts `sort_items` and `digit_counts`, then `tree_spheres`, `tree_lights` and `light_nodes` before it.
 
 use crate::gpu_struct;
 use crate::lights::Attenuation;
@@ -61,6 +64,28 @@ gpu_struct! {
         pub visible_capacity: u32,
         /// Light indices that fit.
         pub index_capacity: u32,
+        /// Words of light bits per segment of a list; 0 where segments are counted instead.
+        pub mask_words: u32,
+        /// Passes of the sort of the light hierarchy.
+        pub sort_passes: u32,
+        /// Depth of the light hierarchy at which its places are lights.
+        pub tree_depth: u32,
+        /// Lowest corner of the grid's bounds in clustering space, metres.
+        pub bounds_low: [f32; 3],
+        /// 1024 over the extent of those bounds, per metre.
+        pub bounds_scale: [f32; 3],
+    }
+}
+
+gpu_struct! {
+    /// A node of the light hierarchy: the centres of its lights lie in the box.
+    pub struct LightNode {
+        /// Clustering space, metres.
+        pub centre: [f32; 3],
+        /// Largest radius, metres.
+        pub radius: f32,
+        /// Metres.
+        pub half_extent: [f32; 3],
     }
 }
 
@@ -125,6 +150,8 @@ gpu_struct! {
         pub visible: u32,
         /// Light indices there are.
         pub index_total: u32,
+        /// Lights in the hierarchy: those that can meet a cell.
+        pub tree_lights: u32,
     }
 }
 
@@ -178,10 +205,16 @@ pub enum Binding {
     Pixels,
     Materials,
     Instances,
+    LightMasks,
+    SortItems,
+    DigitCounts,
+    TreeSpheres,
+    TreeLights,
+    LightNodes,
 }
 
 /// Every buffer as (binding, access, GLSL member).
-pub const BUFFERS: [(Binding, &str, &str); 19] = [
+pub const BUFFERS: [(Binding, &str, &str); 25] = [
     (Binding::Views, "readonly", "ViewData views[]"),
     (Binding::Grid, "readonly", "GridData grid"),
     (Binding::Lights, "readonly", "LightData lights[]"),
@@ -201,6 +234,12 @@ pub const BUFFERS: [(Binding, &str, &str); 19] = [
     (Binding::Pixels, "", "PixelData pixels[]"),
     (Binding::Materials, "readonly", "MaterialData materials[]"),
     (Binding::Instances, "readonly", "InstanceData instances[]"),
+    (Binding::LightMasks, "", "uint light_masks[]"),
+    (Binding::SortItems, "", "uvec2 sort_items[]"),
+    (Binding::DigitCounts, "", "uint digit_counts[]"),
+    (Binding::TreeSpheres, "", "vec4 tree_spheres[]"),
+    (Binding::TreeLights, "", "uint tree_lights[]"),
+    (Binding::LightNodes, "", "LightNode light_nodes[]"),
 ];
 
 /// Descriptor set of the storage buffers.
@@ -219,6 +258,24 @@ pub const ASSIGN_GROUP: u32 = 64;
 pub const DISPATCH_ASSIGN: u32 = 0;
 /// Slot of the dispatch size of the prefix sum over list lengths.
 pub const DISPATCH_SCAN: u32 = 1;
+/// Slot of the dispatch size of the sort's later passes.
+pub const DISPATCH_SORT: u32 = 2;
+/// Slot of the dispatch size of their prefix sums.
+pub const DISPATCH_SORT_SCAN: u32 = 3;
+/// First slot of the dispatch sizes of the light hierarchy's depths.
+pub const DISPATCH_NODES: u32 = 4;
+/// How many slots there are.
+pub const DISPATCH_COUNT: u32 = DISPATCH_NODES + MAX_TREE_DEPTH;
+/// Children of a node of the light hierarchy, a power of two.
+pub const TREE_WIDTH: u32 = 8;
+/// A hierarchy this deep holds more lights than 32 bits count.
+pub const MAX_TREE_DEPTH: u32 = 11;
+/// Bits of a key that one pass of the sort orders by.
+pub const SORT_BITS: u32 = 7;
+/// Values of those bits.
+pub const SORT_DIGITS: u32 = 1 << SORT_BITS;
+/// Items that one thread of the sort takes.
+pub const SORT_BLOCK: u32 = 128;
 
 /// A 64-bit counter of the atemporal run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -247,7 +304,7 @@ const COUNTERS: [(&str, Counter); COUNTER_COUNT] = [
     ("COUNTER_INTERSECTION_TESTS", Counter::IntersectionTests),
 ];
 
-const CONSTANTS: [(&str, u32); 8] = [
+const CONSTANTS: [(&str, u32); 15] = [
     ("SET_BUFFERS", SET_BUFFERS),
     ("SET_MATERIAL", SET_MATERIAL),
     ("SET_DEPTH", SET_DEPTH),
@@ -256,12 +313,19 @@ const CONSTANTS: [(&str, u32); 8] = [
     ("ASSIGN_GROUP", ASSIGN_GROUP),
     ("DISPATCH_ASSIGN", DISPATCH_ASSIGN),
     ("DISPATCH_SCAN", DISPATCH_SCAN),
+    ("DISPATCH_SORT", DISPATCH_SORT),
+    ("DISPATCH_SORT_SCAN", DISPATCH_SORT_SCAN),
+    ("DISPATCH_NODES", DISPATCH_NODES),
+    ("TREE_WIDTH", TREE_WIDTH),
+    ("SORT_BITS", SORT_BITS),
+    ("SORT_DIGITS", SORT_DIGITS),
+    ("SORT_BLOCK", SORT_BLOCK),
 ];
 
 /// Names of what shader variants choose among; the value is the position.
 const VARIANT_NAMES: [&[&str]; 3] = [
     &["SPACE_PERSPECTIVE", "SPACE_ORTHOGRAPHIC"],
-    &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS"],
+    &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS", "SCAN_DIGITS"],
     &["LOOKUP_ALL_LIGHTS", "LOOKUP_CLUSTERED"],
 ];
 
@@ -288,6 +352,7 @@ pub fn glsl() -> String {
     for structure in [
         ViewData::GLSL,
         GridData::GLSL,
+        LightNode::GLSL,
         LightData::GLSL,
         MaterialData::GLSL,
         InstanceData::GLSL,
@@ -305,7 +370,7 @@ pub fn glsl() -> String {
             "layout(set = SET_BUFFERS, binding = {number}, scalar) {access} buffer Buffer{number} {{ {member}; }};"
         );
     }
-    text.push_str("layout(push_constant) uniform PushConstants { uint view; } push;\n");
+    text.push_str("layout(push_constant) uniform PushConstants { uint view; uint step; } push;\n");
     text
 }
 
@@ -318,6 +383,7 @@ mod tests {
         crate::gpu_types::tests::assert_layouts(&[
             ViewData::INFO,
             GridData::INFO,
+            LightNode::INFO,
             LightData::INFO,
             MaterialData::INFO,
             InstanceData::INFO,

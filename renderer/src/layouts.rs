@@ -1,4 +1,4 @@
-//! The one pipeline layout: storage buffers, a material's textures, a view's depth; the view's number pushed.
+//! The one pipeline layout: storage buffers, a material's textures, a view's depth; the numbers of view and step pushed.
 
 use crate::gpu_interface::BUFFERS;
 use crate::vk::Context;
@@ -18,7 +18,7 @@ pub struct Layouts {
     pub material: vk::DescriptorSetLayout,
     /// [`crate::gpu_interface::SET_DEPTH`].
     pub depth: vk::DescriptorSetLayout,
-    /// All of them, with four bytes of push constants.
+    /// All of them, with the push constants `view` and `step`, four bytes each.
     pub pipeline: vk::PipelineLayout,
 }
 
@@ -42,7 +42,7 @@ impl Layouts {
         )?;
         let depth = set_layout(context, vk::DescriptorType::SAMPLED_IMAGE, 1, "depth image")?;
         let sets = [buffers, material, depth];
-        let push = [vk::PushConstantRange::default().stage_flags(vk::ShaderStageFlags::ALL).size(4)];
+        let push = [vk::PushConstantRange::default().stage_flags(vk::ShaderStageFlags::ALL).size(8)];
         let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets).push_constant_ranges(&push);
         let pipeline = unsafe { context.device.create_pipeline_layout(&info, None) }
             .map_err(|e| Error::Device(format!("cannot create the pipeline layout: {e}")))?;

@@ -10,6 +10,7 @@
 //! Nothing flows back: scene and recording know no Vulkan, the maths in [`geometry`] knows neither files
 //! nor GPU, [`output`] knows no passes. Start reading at [`frame`].
 
+pub mod assign;
 pub mod cli;
 pub mod clustering;
 pub mod compare;

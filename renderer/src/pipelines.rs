@@ -6,6 +6,7 @@ mod debug;
 
 pub use debug::DebugPipelines;
 
+use crate::assign::Assigner;
 use crate::config::Marking;
 use crate::draw_list::SurfaceKind;
 use crate::layouts::Layouts;
@@ -33,6 +34,8 @@ pub struct Variant {
     pub samples: u32,
     /// Marking from depth shades per sample, marking from geometry per fragment.
     pub marking: Marking,
+    /// How the lists are built.
+    pub assigner: Assigner,
     /// How lights fade.
     pub attenuation: Attenuation,
     /// Whether counters are compiled in: the atemporal run.
@@ -110,6 +113,24 @@ pub struct ClusteredPipelines {
     pub assign_lights: Arc<Pipeline>,
 }
 
+/// What assignment other than by brute force runs besides.
+pub struct AcceleratedPipelines {
+    /// Empties what counting fills in any order.
+    pub clear_lists: Arc<Pipeline>,
+    /// Lengths of lists, and the lists, from their bits.
+    pub read_masks: [Arc<Pipeline>; 2],
+    /// Sorts the segments of lists.
+    pub sort_lists: Arc<Pipeline>,
+    /// Digits of each block of the sort.
+    pub count_digits: Arc<Pipeline>,
+    /// Their prefix sum.
+    pub digit_offsets: ScanPipelines,
+    /// Items by digit.
+    pub reorder: Arc<Pipeline>,
+    /// One depth of the hierarchy.
+    pub build_nodes: Arc<Pipeline>,
+}
+
 /// All pipelines of one variant.
 pub struct Pipelines {
     /// Prepass of opaque geometry.
@@ -121,12 +142,18 @@ pub struct Pipelines {
     /// What is known of each pixel, for images.
     pub pixel_maps: Arc<Pipeline>,
     clustered: Option<ClusteredPipelines>,
+    accelerated: Option<AcceleratedPipelines>,
 }
 
 impl Pipelines {
     /// The clustered methods' pipelines; only their passes ask.
     pub fn clustered(&self) -> &ClusteredPipelines {
         self.clustered.as_ref().expect("a pass of clustered methods runs in a clustered method")
+    }
+
+    /// What assignment other than by brute force runs; only its passes ask.
+    pub fn accelerated(&self) -> &AcceleratedPipelines {
+        self.accelerated.as_ref().expect("a pass of accelerated assignment runs with it")
     }
 }
 
@@ -163,26 +190,51 @@ impl PipelineStore {
             MethodSpec::AllLights => None,
             MethodSpec::Clustered { .. } => Some(self.clustered(variant)?),
         };
+        let accelerated = match variant.assigner {
+            Assigner::Brute => None,
+            Assigner::Hierarchy | Assigner::Scatter => Some(self.accelerated(&variant.defines())?),
+        };
         Ok(Pipelines {
             depth_opaque: self.graphics(variant, None, Output::Depth)?,
             depth_masked: self.graphics(variant, Some("geometry/alpha_test.frag"), Output::Depth)?,
             shade: self.per_kind(variant, "shade/forward.frag", Output::Shades)?,
             pixel_maps: self.compute("measure/pixel_maps.comp", &variant.defines())?,
             clustered,
+            accelerated,
+        })
+    }
+
+    fn accelerated(&mut self, defines: &Defines) -> Result<AcceleratedPipelines> {
+        let read_masks = "assign/read_masks.comp";
+        Ok(AcceleratedPipelines {
+            clear_lists: self.compute("assign/clear_lists.comp", defines)?,
+            read_masks: [
+                self.compute(read_masks, &defines.with("WRITE_LISTS", 0))?,
+                self.compute(read_masks, &defines.with("WRITE_LISTS", 1))?,
+            ],
+            sort_lists: self.compute("assign/sort_lists.comp", defines)?,
+            count_digits: self.compute("build/count_digits.comp", defines)?,
+            digit_offsets: self.scan(defines, "SCAN_DIGITS")?,
+            reorder: self.compute("build/reorder.comp", defines)?,
+            build_nodes: self.compute("build/build_nodes.comp", defines)?,
         })
     }
 
     fn clustered(&mut self, variant: &Variant) -> Result<ClusteredPipelines> {
         let defines = variant.defines();
-        let brute = "assign/brute.comp";
+        let assign = match variant.assigner {
+            Assigner::Brute => "assign/brute.comp",
+            Assigner::Hierarchy => "assign/hierarchy.comp",
+            Assigner::Scatter => "assign/scatter.comp",
+        };
         Ok(ClusteredPipelines {
             mark: self.mark(variant, false)?,
             count_fragments: self.mark(variant, true)?,
             compact: self.scan(&defines, "SCAN_VISIBILITY")?,
             transform_lights: self.compute("assign/transform_lights.comp", &defines)?,
-            count_lights: self.compute(brute, &defines.with("WRITE_LISTS", 0))?,
+            count_lights: self.compute(assign, &defines.with("WRITE_LISTS", 0))?,
             light_offsets: self.scan(&defines, "SCAN_LIST_LENGTHS")?,
-            assign_lights: self.compute(brute, &defines.with("WRITE_LISTS", 1))?,
+            assign_lights: self.compute(assign, &defines.with("WRITE_LISTS", 1))?,
         })
     }
 

@@ -12,6 +12,10 @@ const uint SCAN_PER_THREAD = SCAN_BLOCK / SCAN_GROUP;
 #if SCAN_ITEMS == SCAN_VISIBILITY
 uint scan_length() { return grid.word_count; }
 uint scan_item(uint i) { return uint(bitCount(cluster_bits[i])); }
+#elif SCAN_ITEMS == SCAN_DIGITS
+#include "lib/sort.glsl"
+uint scan_length() { return SORT_DIGITS * sort_blocks(); }
+uint scan_item(uint i) { return digit_counts[i]; }
 #else
 uint scan_length() { return state.visible * grid.segment_count; }
 uint scan_item(uint i) { return segment_counts[i]; }

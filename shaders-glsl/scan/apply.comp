@@ -11,6 +11,11 @@ void emit(uint word, uint rank)
     for (uint bits = cluster_bits[word]; bits != 0u && rank < grid.visible_capacity; bits &= bits - 1u)
         visible_clusters[rank++] = word * 32u + uint(findLSB(bits));
 }
+#elif SCAN_ITEMS == SCAN_DIGITS
+void emit(uint digit, uint offset)
+{
+    digit_counts[digit] = offset;
+}
 #else
 void emit(uint segment, uint offset)
 {

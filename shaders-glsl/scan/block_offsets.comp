@@ -13,6 +13,27 @@ void publish(uint total)
     dispatches[DISPATCH_ASSIGN] = DispatchSize((visible + ASSIGN_GROUP - 1u) / ASSIGN_GROUP, grid.segment_count, 1u);
     dispatches[DISPATCH_SCAN] = DispatchSize((visible * grid.segment_count + SCAN_BLOCK - 1u) / SCAN_BLOCK, 1u, 1u);
 }
+#elif SCAN_ITEMS == SCAN_DIGITS
+DispatchSize groups(uint items, uint group_size)
+{
+    return DispatchSize((items + group_size - 1u) / group_size, 1u, 1u);
+}
+
+// After the first pass it is known how many lights the tree holds, and so how much is left to do.
+void publish(uint total)
+{
+    if (push.step > 0u)
+        return;
+    state.tree_lights = total;
+    uint blocks = (total + SORT_BLOCK - 1u) / SORT_BLOCK;
+    dispatches[DISPATCH_SORT] = groups(blocks, ASSIGN_GROUP);
+    dispatches[DISPATCH_SORT_SCAN] = groups(blocks * SORT_DIGITS, SCAN_BLOCK);
+    uint nodes = total;
+    for (uint depth = grid.tree_depth - 1u; depth > 0u; --depth) {
+        nodes = (nodes + TREE_WIDTH - 1u) / TREE_WIDTH;
+        dispatches[DISPATCH_NODES + depth - 1u] = groups(nodes, ASSIGN_GROUP);
+    }
+}
 #else
 void publish(uint total)
 {

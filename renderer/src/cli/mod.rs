@@ -1,6 +1,7 @@
 //! Command line: arguments in, one exit code out. Each subcommand's handler is a file of its own.
 
 mod bake_recording;
+mod bench;
 mod compare;
 mod completions;
 mod console;
@@ -60,6 +61,9 @@ enum Command {
     Still(Box<still::Args>),
     /// Compare two result sets run by run: counters exactly, times against their noise
     Compare(compare::Args),
+    /// Measure one part by itself
+    #[command(subcommand)]
+    Bench(bench::Bench),
     /// List the Vulkan devices, with the limits that matter
     Devices,
     /// Print a scene's triangles, materials, textures and bounds
@@ -95,6 +99,7 @@ fn dispatch(command: Command, console: &Console) -> Result<()> {
         Command::Report(args) => report::run(&args, console),
         Command::Still(args) => still::run(*args, console),
         Command::Compare(args) => compare::run(&args, console),
+        Command::Bench(args) => bench::run(args, console),
         Command::Devices => devices::run(console),
         Command::Scene(args) => scene::run(&args, console),
         Command::ImportRecording(args) => import_recording::run(&args, console),

@@ -139,6 +139,10 @@ impl Reporter for Bar<'_> {
         self.progress.skip(frames);
     }
 
+    fn note(&self, text: &str) {
+        self.console.note(text);
+    }
+
     fn failed(&self, failure: &Failure) {
         self.console.note(&format!("{} failed: {}", failure.run, failure.error));
     }

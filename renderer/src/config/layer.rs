@@ -2,8 +2,8 @@
 
 use super::values::{self, de};
 use super::{
-    Config, DisplacedVolume, Exclude, ExrFrames, FrameRange, Lighting, Marking, SceneEntry, Scopes, scenes,
-    schema,
+    Assign, Config, DisplacedVolume, Exclude, ExrFrames, FrameRange, Lighting, Marking, SceneEntry, Scopes,
+    scenes, schema,
 };
 use crate::lights::Attenuation;
 use crate::methods::MethodSpec;
@@ -116,6 +116,10 @@ pub struct Layer {
     #[arg(long, value_enum)]
     pub marking: Option<Marking>,
 
+    /// How the light lists are built; every way gives the same ones.
+    #[arg(long, value_enum)]
+    pub assign: Option<Assign>,
+
     /// Which frustum sizes the clusters of Displ.
     #[arg(long, value_enum)]
     pub displaced_volume: Option<DisplacedVolume>,
@@ -174,6 +178,7 @@ impl Config {
         set(&mut self.trace, layer.trace);
         set(&mut self.attenuation, layer.attenuation);
         set(&mut self.marking, layer.marking);
+        set(&mut self.assign, layer.assign);
         set(&mut self.displaced_volume, layer.displaced_volume);
         set(&mut self.out, layer.out);
         set(&mut self.visible_cluster_capacity, layer.visible_cluster_capacity);

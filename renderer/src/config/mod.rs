@@ -18,7 +18,9 @@ mod tests;
 pub use exclude::{Counts, Exclude, Names};
 pub use layer::Layer;
 pub use schema::json_schema;
+pub use values::resolution as parse_resolution;
 
+use crate::assign::Assigner;
 use crate::lights::Attenuation;
 use crate::methods::{MethodSpec, Sharing, Space};
 use crate::{Error, Result};
@@ -59,6 +61,32 @@ pub enum DisplacedVolume {
     View,
     /// The displaced frustum's own volume over Persp's cluster count.
     Own,
+}
+
+/// How the light lists are built; every way gives the same ones.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Assign {
+    /// Every visible cluster against every light.
+    Brute,
+    /// Every visible cluster down a hierarchy of the lights, built anew each frame.
+    Hierarchy,
+    /// Every light through the cells that its bounds meet.
+    Scatter,
+    /// What is likely fastest, by counts taken before the run.
+    Auto,
+}
+
+impl Assign {
+    /// What builds them; `None` where counts decide.
+    pub fn fixed(self) -> Option<Assigner> {
+        match self {
+            Self::Brute => Some(Assigner::Brute),
+            Self::Hierarchy => Some(Assigner::Hierarchy),
+            Self::Scatter => Some(Assigner::Scatter),
+            Self::Auto => None,
+        }
+    }
 }
 
 /// Frames first..last by step; `last` excluded.
@@ -158,6 +186,8 @@ pub struct Config {
     pub attenuation: Attenuation,
     /// Marking strategy.
     pub marking: Marking,
+    /// How the light lists are built.
+    pub assign: Assign,
     /// Volume that sizes Displ.
     pub displaced_volume: DisplacedVolume,
     /// Output directory.
@@ -196,6 +226,7 @@ impl Default for Config {
             trace: ExrFrames::List(Vec::new()),
             attenuation: Attenuation::PhyRed2,
             marking: Marking::Depth,
+            assign: Assign::Brute,
             displaced_volume: DisplacedVolume::View,
             out: "out".into(),
             visible_cluster_capacity: 1 << 14,

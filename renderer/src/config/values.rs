@@ -43,7 +43,7 @@ pub(super) fn attenuation(text: &str) -> Result<Attenuation, String> {
 }
 
 /// Reads `WxH`.
-pub(super) fn resolution(text: &str) -> Result<[u32; 2], String> {
+pub fn resolution(text: &str) -> Result<[u32; 2], String> {
     let wrong = || format!("`{text}` is no resolution such as 1280x720");
     let (width, height) = text.split_once('x').ok_or_else(wrong)?;
     let number = |part: &str| part.parse::<u32>().map_err(|_| wrong());

@@ -30,6 +30,8 @@ pub struct Manifest {
     pub lighting: Option<Lighting>,
     /// The fully resolved configuration of this run alone; it can be replayed as it is.
     pub config: Config,
+    /// How the light lists were built: `brute`, `hierarchy` or `scatter`.
+    pub assigned_by: String,
     /// The scene drawn.
     pub scene: Source,
     /// The recording replayed.

@@ -183,6 +183,7 @@ fn manifest() -> Manifest {
         method: "encl-ortho-4".into(),
         lighting: Some(Lighting::with_count(1000)),
         config: Config::default(),
+        assigned_by: "brute".into(),
         scene: Source { name: "street".into(), sha256: "00".into() },
         recording: Source { name: "bistro-vive".into(), sha256: "11".into() },
         device: DeviceInfo { name: "llvmpipe".into(), driver: "Mesa".into(), api: "1.3.230".into() },

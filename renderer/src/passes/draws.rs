@@ -120,6 +120,14 @@ impl Frame<'_> {
         }
     }
 
+    /// Pushes the number of the step, for pipelines that run several times in a stage.
+    pub fn push_step(&self, r: &Recorder, step: u32) {
+        let (stages, step) = (vk::ShaderStageFlags::ALL, step.to_ne_bytes());
+        unsafe {
+            r.context.device.cmd_push_constants(r.commands, self.layouts.pipeline, stages, 4, &step);
+        }
+    }
+
     /// Binds a pipeline with the buffers of clustering `clustering`.
     pub fn bind_clustering(
         &self,

@@ -5,6 +5,7 @@ pub mod assign;
 pub mod clay;
 pub mod depth;
 pub mod draws;
+pub mod hierarchy;
 pub mod lights;
 pub mod lines;
 pub mod mark;

@@ -1,12 +1,14 @@
 //! Stages `compact` and `light_offsets`: the one prefix sum, over the visibility words and over the lengths of
-//! the lists' segments.
+//! the lists' segments; and, in `build_hierarchy`, over the digits of the sort.
 //!
 //! ```text
 //! items ──reduce──> block_sums ──block_offsets──> block_sums, total ──apply──> exclusive prefix per item
 //! ```
 
 use crate::frame::Frame;
-use crate::gpu_interface::{DISPATCH_SCAN, DispatchSize, SCAN_BLOCK};
+use crate::gpu_interface::{
+    DISPATCH_SCAN, DISPATCH_SORT_SCAN, DispatchSize, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS,
+};
 use crate::pass::{Access, Recorder, Use};
 use crate::pipelines::ScanPipelines;
 use ash::vk;
@@ -16,8 +18,8 @@ use ash::vk;
 enum Blocks {
     /// Known to the host.
     Count(u32),
-    /// Written by the device.
-    Indirect(vk::Buffer),
+    /// Written by the device into a slot of the dispatch sizes.
+    Indirect(u32),
 }
 
 /// Ranks the visibility words and lists the visible clusters by ascending index.
@@ -44,9 +46,25 @@ pub fn light_offsets(r: &mut Recorder, frame: &Frame, clustering: usize) {
             Access::buffer(b.segment_counts.handle, Use::ComputeRead),
             Access::buffer(b.dispatches.handle, Use::Indirect),
         ]);
-        let blocks = Blocks::Indirect(b.dispatches.handle);
+        let blocks = Blocks::Indirect(DISPATCH_SCAN);
         scan(r, frame, clustering, &frame.pipelines.clustered().light_offsets, blocks);
     });
+}
+
+/// Where each digit of each block goes, in pass `step` of the sort of lights; the step is pushed already.
+pub(super) fn digit_offsets(r: &mut Recorder, frame: &Frame, clustering: usize, step: u32) {
+    let b = &frame.clusterings[clustering].buffers;
+    let first = step == 0;
+    r.access(&[
+        Access::buffer(b.digit_counts.handle, Use::ComputeWrite),
+        Access::buffer(b.dispatches.handle, if first { Use::ComputeWrite } else { Use::Indirect }),
+    ]);
+    let counts = frame.light_count.div_ceil(SORT_BLOCK) * SORT_DIGITS;
+    let blocks = match first {
+        true => Blocks::Count(counts.div_ceil(SCAN_BLOCK)),
+        false => Blocks::Indirect(DISPATCH_SORT_SCAN),
+    };
+    scan(r, frame, clustering, &frame.pipelines.accelerated().digit_offsets, blocks);
 }
 
 fn scan(r: &mut Recorder, frame: &Frame, clustering: usize, pipelines: &ScanPipelines, blocks: Blocks) {
@@ -61,11 +79,12 @@ fn scan(r: &mut Recorder, frame: &Frame, clustering: usize, pipelines: &ScanPipe
             Access::buffer(b.block_sums.handle, Use::ComputeWrite),
             Access::buffer(b.state.handle, Use::ComputeWrite),
             Access::buffer(b.list_offsets.handle, Use::ComputeWrite),
+            Access::buffer(b.digit_counts.handle, Use::ComputeWrite),
         ]);
         frame.bind_clustering(r, vk::PipelineBindPoint::COMPUTE, pipeline, clustering);
         match blocks {
             Blocks::Count(count) => unsafe { r.context.device.cmd_dispatch(r.commands, count, 1, 1) },
-            Blocks::Indirect(buffer) => dispatch_indirect(r, buffer, DISPATCH_SCAN),
+            Blocks::Indirect(slot) => dispatch_indirect(r, b.dispatches.handle, slot),
         }
     }
 }

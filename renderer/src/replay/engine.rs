@@ -4,6 +4,7 @@
 use super::plan::{FramePlan, views_of_clusterings};
 use super::session::Session;
 use crate::Result;
+use crate::assign::Assigner;
 use crate::clustering::{
     Clustering, ClusteringSizes, SharedBuffers, device_buffer, grid_data, gridless_data, view_data,
 };
@@ -24,6 +25,7 @@ pub struct Engine {
     context: Arc<Context>,
     method: MethodSpec,
     marking: Marking,
+    assigner: Assigner,
     resolution: [u32; 2],
     timed_scopes: usize,
     pipelines: Pipelines,
@@ -38,29 +40,44 @@ pub struct Engine {
     pub growth: Vec<GrowthEvent>,
 }
 
+/// What an engine is made for.
+#[derive(Debug, Clone, Copy)]
+pub struct Mode {
+    /// Most lights of all frames.
+    pub lights: u32,
+    /// What the buffers hold at first.
+    pub capacities: Capacities,
+    /// How the lists are built.
+    pub assigner: Assigner,
+    /// Whether everything is counted: the atemporal run.
+    pub counting: bool,
+}
+
 /// What the shaders of a run are specialised for.
-pub fn variant(config: &Config, method: MethodSpec, counting: bool) -> Variant {
+pub fn variant(config: &Config, method: MethodSpec, mode: &Mode) -> Variant {
     Variant {
         method,
         samples: config.msaa,
         marking: config.marking,
+        assigner: assigner(method, mode),
         attenuation: config.attenuation,
-        counting,
+        counting: mode.counting,
     }
 }
 
-fn sizes(
-    config: &Config,
-    method: MethodSpec,
-    plans: &[FramePlan],
-    (lights, capacities, counting): (u32, Capacities, bool),
-) -> ClusteringSizes {
+/// A method without clusters assigns nothing.
+fn assigner(method: MethodSpec, mode: &Mode) -> Assigner {
+    if method == MethodSpec::AllLights { Assigner::Brute } else { mode.assigner }
+}
+
+fn sizes(config: &Config, method: MethodSpec, plans: &[FramePlan], mode: &Mode) -> ClusteringSizes {
     let none = Capacities { visible_clusters: 0, light_indices: 0 };
     ClusteringSizes {
         clusters: plans.iter().flat_map(|p| &p.grids).map(|g| g.cluster_count()).max().unwrap_or(0),
-        lights,
-        capacities: if method == MethodSpec::AllLights { none } else { capacities },
-        counting,
+        lights: mode.lights,
+        capacities: if method == MethodSpec::AllLights { none } else { mode.capacities },
+        assigner: assigner(method, mode),
+        counting: mode.counting,
         pixels: u64::from(config.resolution[0]) * u64::from(config.resolution[1]),
     }
 }
@@ -72,17 +89,17 @@ pub type Commands<'a> = dyn FnMut(&mut Recorder, &Frame) + 'a;
 const GROWTH_MARGIN: u32 = 5;
 
 impl Engine {
-    /// Makes pipelines and buffers for `plans`, which are all frames that will be rendered, with at most `lights`.
+    /// Makes pipelines and buffers for `plans`, which are all frames that will be rendered.
     pub fn new(
         session: &mut Session,
         config: &Config,
         method: MethodSpec,
         plans: &[FramePlan],
-        (lights, capacities, counting): (u32, Capacities, bool),
+        mode: Mode,
     ) -> Result<Self> {
-        let sizes = sizes(config, method, plans, (lights, capacities, counting));
+        let sizes = sizes(config, method, plans, &mode);
         sizes.check(&session.context.limits)?;
-        let light_bytes = (u64::from(lights) * size_of::<LightData>() as u64).max(16);
+        let light_bytes = (u64::from(mode.lights) * size_of::<LightData>() as u64).max(16);
         let staging = || {
             let usage = vk::BufferUsageFlags::TRANSFER_SRC;
             Buffer::new(&session.context, "light staging", light_bytes, usage, Memory::Upload)
@@ -91,13 +108,14 @@ impl Engine {
             context: session.context.clone(),
             method,
             marking: config.marking,
+            assigner: assigner(method, &mode),
             resolution: config.resolution,
             timed_scopes: if config.scopes == Scopes::All { usize::MAX } else { 1 },
             staging: [staging()?, staging()?],
             lights: device_buffer(&session.context, "lights", light_bytes)?,
-            pipelines: session.store.pipelines(&variant(config, method, counting))?,
+            pipelines: session.store.pipelines(&variant(config, method, &mode))?,
             sizes,
-            staged: Vec::with_capacity(lights as usize),
+            staged: Vec::with_capacity(mode.lights as usize),
             clusterings: vec![],
             tree: ScopeTree::default(),
             growth: vec![],
@@ -112,10 +130,10 @@ impl Engine {
         config: &Config,
         method: MethodSpec,
         plans: &[FramePlan],
-        mode: (u32, Capacities, bool),
+        mode: &Mode,
     ) -> Result<()> {
         sizes(config, method, plans, mode).check(&session.context.limits)?;
-        session.store.pipelines(&variant(config, method, mode.2)).map(drop)
+        session.store.pipelines(&variant(config, method, mode)).map(drop)
     }
 
     /// What the buffers hold now.
@@ -193,6 +211,7 @@ impl Engine {
             clusterings: &self.clusterings,
             clustered: self.method != MethodSpec::AllLights,
             marking: self.marking,
+            assigner: self.assigner,
             lights: &self.lights,
             light_staging: &self.staging[slot],
             light_count: self.staged.len() as u32,
@@ -222,8 +241,7 @@ impl Engine {
         for (c, clustering) in self.clusterings.iter_mut().enumerate() {
             let grid = plan.grids.get(c);
             let count = lights.len() as u32;
-            let data =
-                grid.map_or_else(|| gridless_data(count), |g| grid_data(g, count, self.sizes.capacities));
+            let data = grid.map_or_else(|| gridless_data(count), |g| grid_data(g, count, &self.sizes));
             clustering.word_count = data.word_count;
             clustering.grids[slot].write(0, &[data]);
             for v in clustering.views.clone() {

@@ -6,6 +6,8 @@
 //! ```
 
 pub(crate) mod atemporal;
+pub mod bench;
+mod choose;
 mod counted;
 pub(crate) mod engine;
 pub mod inputs;
@@ -20,6 +22,7 @@ pub use plan::{FramePlan, plan_frames};
 pub use player::{Player, device_info};
 pub use session::shader_library;
 
+use crate::assign::Assigner;
 use crate::config::Config;
 use crate::measure::{
     Capacities, ClusterLists, FrameCounts, FrameTimes, FrameTrace, GrowthEvent, ViewPixels,
@@ -28,7 +31,7 @@ use crate::output::PlannedRun;
 use crate::recording::Recording;
 use crate::vk::DeviceInfo;
 use crate::{Error, Result};
-use engine::Engine;
+use engine::{Engine, Mode};
 use session::Session;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, SystemTime};
@@ -79,6 +82,8 @@ pub struct RunResult {
     pub times: Vec<FrameTimes>,
     /// When the stages of the traced frames ran.
     pub traces: Vec<FrameTrace>,
+    /// How the lists were built.
+    pub assigner: Assigner,
     /// What the buffers held at the end.
     pub capacities: Capacities,
     /// Frames that made them grow.
@@ -136,6 +141,7 @@ fn replay_run(
         counts: Vec::with_capacity(plans.len()),
         times: vec![],
         traces: vec![],
+        assigner: Assigner::Brute,
         capacities: Capacities {
             visible_clusters: config.visible_cluster_capacity,
             light_indices: config.light_index_capacity,
@@ -145,6 +151,7 @@ fn replay_run(
         started,
         duration: Duration::ZERO,
     };
+    result.assigner = choose::assigner(config, inputs, session, (run, &plans))?;
     count(config, inputs, session, (run, &plans), (watch, sink), &mut result)?;
     if config.runs > 0 {
         time(config, inputs, session, (run, &plans), watch, &mut result)?;
@@ -165,7 +172,8 @@ fn count(
     let mut lights = inputs.light_source(&run.lights)?;
     let light_count = lights.at_frame(plans[0].frame).len() as u32;
     let names: Vec<String> = inputs.recording.view_names().into_iter().map(str::to_owned).collect();
-    let mode = (light_count, result.capacities, true);
+    let (capacities, assigner) = (result.capacities, result.assigner);
+    let mode = Mode { lights: light_count, capacities, assigner, counting: true };
     let mut engine = Engine::new(session, config, run.method, plans, mode)?;
     for plan in plans {
         watch.check()?;
@@ -189,7 +197,8 @@ fn time(
 ) -> Result<()> {
     let mut lights = inputs.light_source(&run.lights)?;
     let light_count = lights.at_frame(plans[0].frame).len() as u32;
-    let mode = (light_count, result.capacities, false);
+    let (capacities, assigner) = (result.capacities, result.assigner);
+    let mode = Mode { lights: light_count, capacities, assigner, counting: false };
     let mut engine = Engine::new(session, config, run.method, plans, mode)?;
     temporal::warm_up(&mut engine, session, &plans[0], &mut lights)?;
     let frames = plans.iter().map(|plan| plan.frame);

@@ -1,9 +1,10 @@
 //! A device with one scene on it, on which runs are played one after the other.
 
-use super::engine::Engine;
+use super::engine::{Engine, Mode};
 use super::session::Session;
 use super::{Inputs, RunSink, Watch, plan_frames, replay_run};
 use crate::Result;
+use crate::assign::Assigner;
 use crate::config::Config;
 use crate::measure::Capacities;
 use crate::output::PlannedRun;
@@ -47,13 +48,10 @@ impl<'a> Player<'a> {
             light_indices: self.config.light_index_capacity,
         };
         for counting in [true, false] {
-            Engine::check(
-                &mut self.session,
-                self.config,
-                run.method,
-                &plans,
-                (lights, capacities, counting),
-            )?;
+            // Where counts decide, brute force stands for all: which way it will be is not known yet.
+            let assigner = self.config.assign.fixed().unwrap_or(Assigner::Brute);
+            let mode = Mode { lights, capacities, assigner, counting };
+            Engine::check(&mut self.session, self.config, run.method, &plans, &mode)?;
         }
         Ok(())
     }

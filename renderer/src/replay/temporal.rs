@@ -74,7 +74,8 @@ pub fn warm_up(
     }
 }
 
-fn nothing(_: &mut Recorder, _: &Frame) {}
+/// Extends a frame by nothing.
+pub fn nothing(_: &mut Recorder, _: &Frame) {}
 
 /// Waits for the frame in `slot` and keeps its times; true where it did not fit and must be rendered again.
 fn collect(

@@ -14,6 +14,7 @@ mod compose;
 mod record;
 mod shapes;
 
+use crate::assign::Assigner;
 use crate::clustering::view_data;
 use crate::config::Config;
 use crate::gpu_interface::PixelData;
@@ -181,9 +182,11 @@ impl Painter<'_> {
             light_indices: self.config.light_index_capacity,
         };
         let plans = std::slice::from_ref(self.plan);
-        let mode = (light_count, capacities, true);
+        // The picture is of the lists, which are the same however they are built.
+        let mode =
+            engine::Mode { lights: light_count, capacities, assigner: Assigner::Brute, counting: true };
         let mut engine = Engine::new(session, self.config, run.method, plans, mode)?;
-        let pipelines = session.store.debug(&engine::variant(self.config, run.method, true))?;
+        let pipelines = session.store.debug(&engine::variant(self.config, run.method, &mode))?;
         let names: Vec<String> = self.inputs.recording.view_names().into_iter().map(str::to_owned).collect();
         let mut shaded = Shaded::default();
         let time = self.inputs.recording.time(self.plan.frame);

@@ -19,6 +19,8 @@ pub trait Reporter {
     fn advance(&self);
     /// So many frames need not be rendered.
     fn skip(&self, frames: u64);
+    /// Good to know.
+    fn note(&self, text: &str);
     /// A run failed, and the sweep goes on.
     fn failed(&self, failure: &Failure);
 }

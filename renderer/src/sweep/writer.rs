@@ -1,7 +1,7 @@
 //! Writes the runs of one part as they come.
 
 use super::{Part, Reporter};
-use crate::config::LightsFrom;
+use crate::config::{Assign, LightsFrom};
 use crate::measure::ViewPixels;
 use crate::output::{
     DeviceInfo, Manifest, PlannedRun, RUN_FORMAT, RunWriter, Source, git_revision, rfc3339_utc,
@@ -47,6 +47,7 @@ impl Files<'_> {
                 LightsFrom::File(_) | LightsFrom::Scene => None,
             },
             config: self.part.run_config(run),
+            assigned_by: result.assigner.to_string(),
             scene: Source { name: scene.name.clone(), sha256: scene.sha256.clone() },
             recording: Source { name: recording.name().to_owned(), sha256: recording.sha256().to_owned() },
             device: device(&result.device),
@@ -77,6 +78,9 @@ impl RunSink for Files<'_> {
         let writer = self.writer.take().ok_or_else(not_begun)?;
         if !result.traces.is_empty() {
             writer.write_trace(&result.traces)?;
+        }
+        if self.part.config.assign == Assign::Auto {
+            self.reporter.note(&format!("{}: lights assigned by {}", run.name, result.assigner));
         }
         let finished = writer.finish(&manifest, &result.counts, &result.times);
         self.noted(finished)

@@ -56,14 +56,23 @@ struct Bench {
 
 impl Bench {
     fn new(method: MethodSpec, grid: Grid, lights: &[PointLight], capacities: Capacities) -> Self {
-        let config = config();
-        let mut session = Session::new(&config, &street(), 1).unwrap();
+        Self::with_config(&config(), method, grid, lights, capacities)
+    }
+
+    fn with_config(
+        config: &Config,
+        method: MethodSpec,
+        grid: Grid,
+        lights: &[PointLight],
+        capacities: Capacities,
+    ) -> Self {
+        let mut session = Session::new(config, &street(), 1).unwrap();
         let words = grid.cluster_count().div_ceil(32);
         let plan = FramePlan { frame: 0, views: vec![view()], grids: vec![grid] };
         let plans = std::slice::from_ref(&plan);
-        let mut engine =
-            Engine::new(&mut session, &config, method, plans, (lights.len() as u32, capacities, true))
-                .unwrap();
+        let assigner = config.assign.fixed().expect("tests name what they test");
+        let mode = Mode { lights: lights.len() as u32, capacities, assigner, counting: true };
+        let mut engine = Engine::new(&mut session, config, method, plans, mode).unwrap();
         engine.write_host_data(&mut session, 0, &plan, lights);
         Self { engine, session, words }
     }
@@ -105,6 +114,8 @@ impl Bench {
         self.engine.states(&self.session, 0)[0]
     }
 }
+
+mod assign_equality;
 
 /// A small deterministic generator; quality does not matter here.
 fn noise(seed: u64) -> impl FnMut() -> u32 {

@@ -1,0 +1,180 @@
+//! Ways of light assignment, and the sizes of what the accelerated ones work with: pure, for host and tests.
+//!
+//! All ways give the same lists. Brute force tests every visible cluster against every light; the hierarchy takes
+//! each visible cluster down a tree of lights, built anew each frame; scatter takes each light through the cells that
+//! its bounds meet.
+
+use crate::clustering::segments;
+use crate::gpu_interface::{SORT_BITS, TREE_WIDTH};
+use std::fmt;
+
+/// How the light lists are built.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Assigner {
+    /// Every visible cluster against every light: the reference.
+    Brute,
+    /// Every visible cluster down a tree of lights.
+    Hierarchy,
+    /// Every light through the cells near it.
+    Scatter,
+}
+
+impl fmt::Display for Assigner {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Brute => "brute",
+            Self::Hierarchy => "hierarchy",
+            Self::Scatter => "scatter",
+        })
+    }
+}
+
+/// What decides which way is cheapest: counts of one frame, summed over its clusterings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct AssignCounts {
+    /// Lights, once a clustering.
+    pub lights: u64,
+    /// Clusters to build lists for.
+    pub visible_clusters: u64,
+    /// Lengths of all lists together.
+    pub light_indices: u64,
+    /// Cells of the grids.
+    pub clusters: u64,
+}
+
+/// Cost of sorting a light and building its share of the tree, in tests of a sphere against a cell.
+const COST_BUILD: f64 = 12.0;
+/// Tests that the hierarchy makes for each light that it finds.
+const COST_FOUND: f64 = 5.0;
+/// Tests for each cluster on the way down.
+const COST_DESCENT: f64 = 40.0;
+/// Cost of finding a light's range of cells.
+const COST_RANGE: f64 = 4.0;
+/// Cost of each cell in it; most are skipped by the word.
+const COST_CELL: f64 = 0.5;
+
+impl AssignCounts {
+    /// The way that a simple model of the work finds cheapest: the same for the same counts.
+    pub fn cheapest(&self) -> Assigner {
+        let [lights, visible, indices, clusters] =
+            [self.lights, self.visible_clusters, self.light_indices, self.clusters].map(|count| count as f64);
+        // Lights meet as many invisible cells, of those there are, as visible ones.
+        let cells_met = indices * clusters / visible.max(1.0);
+        let costs = [
+            (Assigner::Hierarchy, COST_BUILD * lights + COST_FOUND * indices + COST_DESCENT * visible),
+            (Assigner::Scatter, COST_RANGE * lights + COST_CELL * cells_met + COST_FOUND * indices),
+            (Assigner::Brute, 2.0 * lights * visible),
+        ];
+        let cheapest = costs.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
+        cheapest.map_or(Assigner::Brute, |(assigner, _)| assigner)
+    }
+}
+
+/// Up to this many lights, lists are kept as bits while they are counted.
+const MAX_MASK_LIGHTS: u32 = 1 << 14;
+/// Bits take at most this many bytes, else segments are counted and sorted.
+const MAX_MASK_BYTES: u64 = 64 << 20;
+
+impl Assigner {
+    /// Whether lists of up to `lights` lights are kept as bits, for `visible` clusters, while they are counted: then
+    /// nothing is tested twice, and nothing sorted.
+    pub fn keeps_bits(self, lights: u32, visible: u32) -> bool {
+        let (segments, _) = segments(lights);
+        let bytes = 4 * u64::from(visible) * u64::from(segments) * u64::from(mask_words(lights));
+        self != Self::Brute && lights <= MAX_MASK_LIGHTS && bytes <= MAX_MASK_BYTES
+    }
+}
+
+/// Words of bits that a segment of a list takes.
+pub fn mask_words(lights: u32) -> u32 {
+    segments(lights).1.div_ceil(32)
+}
+
+/// Depth of a light hierarchy at which its places are the lights: at least 2, for the root itself is never made.
+pub fn tree_depth(lights: u32) -> u32 {
+    (2..).find(|&depth| u64::from(TREE_WIDTH).pow(depth) >= u64::from(lights)).unwrap_or(2)
+}
+
+/// Nodes of a light hierarchy: all depths above the lights, one behind the other.
+pub fn tree_nodes(lights: u32) -> u64 {
+    let width = u64::from(TREE_WIDTH);
+    let above: u64 = (0..tree_depth(lights) - 1).map(|depth| width.pow(depth)).sum();
+    above + u64::from(lights).div_ceil(width)
+}
+
+/// Bits of a Morton code.
+const MORTON_BITS: u32 = 30;
+/// Bits of a key beyond those that number the lights: so that few lights share a key.
+const SPARE_KEY_BITS: u32 = 4;
+
+/// Passes of the sort: enough bits of the Morton codes to tell most lights apart, and no more.
+pub fn sort_passes(lights: u32) -> u32 {
+    let bits = lights.max(2).ilog2() + 1 + SPARE_KEY_BITS;
+    bits.div_ceil(SORT_BITS).min(MORTON_BITS / SORT_BITS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gpu_interface::MAX_TREE_DEPTH;
+
+    const COUNTS: [u32; 10] = [0, 1, 7, 8, 64, 65, 4096, 100_000, 1 << 20, u32::MAX];
+
+    #[test]
+    fn trees_hold_their_lights_and_no_more_depths_than_needed() {
+        for lights in COUNTS {
+            let depth = tree_depth(lights);
+            assert!((2..=MAX_TREE_DEPTH).contains(&depth));
+            assert!(u64::from(TREE_WIDTH).pow(depth) >= u64::from(lights));
+            assert!(depth == 2 || u64::from(TREE_WIDTH).pow(depth - 1) < u64::from(lights));
+            let parents = u64::from(lights).div_ceil(u64::from(TREE_WIDTH));
+            assert!(
+                (parents..parents + parents / 2 + 16).contains(&tree_nodes(lights).min(parents * 3 / 2 + 15))
+            );
+        }
+    }
+
+    #[test]
+    fn keys_are_long_enough_and_fit_a_morton_code() {
+        for lights in COUNTS {
+            let bits = SORT_BITS * sort_passes(lights);
+            assert!(bits <= MORTON_BITS && (bits >= 28 || 1u64 << bits >= u64::from(lights)));
+        }
+    }
+
+    #[test]
+    fn bits_cover_all_lights_within_their_bounds() {
+        for (lights, visible) in
+            [(1, 1), (1000, 1 << 14), (16_384, 1 << 14), (16_384, 1 << 20), (100_000, 100)]
+        {
+            let (count, size) = segments(lights);
+            assert!(32 * mask_words(lights) >= size);
+            assert!(!Assigner::Brute.keeps_bits(lights, visible));
+            let bytes = u64::from(mask_words(lights)) * u64::from(count) * u64::from(visible) * 4;
+            assert!(!Assigner::Hierarchy.keeps_bits(lights, visible) || bytes <= MAX_MASK_BYTES);
+        }
+        assert!(Assigner::Scatter.keeps_bits(10_000, 1 << 14));
+    }
+
+    #[test]
+    fn bits_of_fewer_lights_fit_where_those_of_more_do() {
+        let words = |lights| segments(lights).0 * mask_words(lights);
+        for lights in 1..20_000 {
+            assert!(words(lights) <= words(lights + 1), "{lights} lights");
+        }
+    }
+
+    #[test]
+    fn few_lights_are_assigned_by_brute_force_and_many_are_not() {
+        let counts = |lights, light_indices| AssignCounts {
+            lights,
+            visible_clusters: 1000,
+            light_indices,
+            clusters: 20_000,
+        };
+        assert_eq!(counts(1, 100).cheapest(), Assigner::Brute);
+        assert_ne!(counts(100_000, 200_000).cheapest(), Assigner::Brute);
+        let nothing = AssignCounts { lights: 1, visible_clusters: 0, light_indices: 0, clusters: 1 };
+        assert_eq!(nothing.cheapest(), Assigner::Brute);
+    }
+}

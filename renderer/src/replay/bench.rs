@@ -1,0 +1,172 @@
+//! Light assignment alone, timed by every way in one process, in turn: what runs on the machine beside it slows all
+//! ways alike.
+
+use super::engine::{Engine, Mode};
+use super::plan::{FramePlan, plan_frames};
+use super::session::Session;
+use super::{Inputs, Watch, temporal};
+use crate::Result;
+use crate::assign::Assigner;
+use crate::config::{Config, FrameRange, Lighting, LightsFrom};
+use crate::gpu_interface::{ClusteringState, Counter};
+use crate::lights::PointLight;
+use crate::measure::Capacities;
+use crate::methods::{MethodSpec, Space};
+use crate::passes::readback;
+use crate::replay::counted::Counted;
+use serde::Serialize;
+
+/// What is timed.
+#[derive(Debug, Clone)]
+pub struct AssignBench {
+    /// Ways of assignment, all on each frame.
+    pub assigners: Vec<Assigner>,
+    /// Lightings of the rain.
+    pub lights: Vec<Lighting>,
+    /// Frames of the recording.
+    pub frames: Vec<u32>,
+    /// How often each is timed; the least time counts.
+    pub repeats: u32,
+}
+
+/// One measured way of assignment.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BenchRow {
+    /// How many lights.
+    pub lights: u32,
+    /// The method's name.
+    pub method: String,
+    /// The way: `brute`, `hierarchy` or `scatter`.
+    pub assign: String,
+    /// The test of sphere against cluster: `hs` or `box`.
+    pub test: &'static str,
+    /// Frame of the recording.
+    pub frame: u32,
+    /// Of all clusterings.
+    pub visible_clusters: u64,
+    /// Of all clusterings.
+    pub light_indices: u64,
+    /// Of all clusterings; of nodes too.
+    pub intersection_tests: u64,
+    /// Build, count, offsets and assign: least of the repeats, milliseconds.
+    pub gpu_ms: f64,
+}
+
+/// The slot that benchmarked frames use: each is read before the next begins.
+const SLOT: usize = 0;
+/// Stages whose times make a row's.
+const STAGES: [&str; 4] = ["build_hierarchy", "count_lights", "light_offsets", "assign_lights"];
+
+/// Times `bench` by the config's methods, scene, recording and resolution; rows come as soon as they are measured.
+///
+/// # Errors
+/// As [`super::replay`].
+pub fn bench_assign(
+    config: &Config,
+    inputs: &Inputs,
+    bench: &AssignBench,
+    watch: &Watch,
+    sink: &mut dyn FnMut(BenchRow) -> Result<()>,
+) -> Result<()> {
+    let views = inputs.recording.view_names().len();
+    let mut session = Session::new(config, &inputs.scene, views)?;
+    for lighting in &bench.lights {
+        let mut source = inputs.light_source(&LightsFrom::Rain(*lighting))?;
+        for &frame in &bench.frames {
+            let lights = source.at_frame(frame).to_vec();
+            let range = FrameRange { first: frame, end: Some(frame + 1), step: 1 };
+            let config = Config { frames: range, ..config.clone() };
+            for &method in &config.methods {
+                let plan = &plan_frames(&config, &inputs.recording, &method)?[0];
+                let case = Case { config: &config, method, plan, lights: &lights };
+                for row in case.measure(&mut session, bench, watch)? {
+                    sink(row)?;
+                }
+            }
+        }
+    }
+    session.context.check_validation()
+}
+
+/// One frame by one method.
+struct Case<'a> {
+    config: &'a Config,
+    method: MethodSpec,
+    plan: &'a FramePlan,
+    lights: &'a [PointLight],
+}
+
+impl Case<'_> {
+    fn measure(&self, session: &mut Session, bench: &AssignBench, watch: &Watch) -> Result<Vec<BenchRow>> {
+        let mut rows = vec![];
+        let mut engines = vec![];
+        for &assigner in &bench.assigners {
+            rows.push(self.count(session, assigner)?);
+            engines.push(self.engine(session, (assigner, false))?);
+        }
+        for _ in 0..=bench.repeats {
+            // The first turn warms up, and counts as the others: it is never the least.
+            for (engine, row) in engines.iter_mut().zip(&mut rows) {
+                watch.check()?;
+                row.gpu_ms = row.gpu_ms.min(self.time(session, engine)?);
+                watch.step();
+            }
+        }
+        Ok(rows)
+    }
+
+    fn engine(&self, session: &mut Session, (assigner, counting): (Assigner, bool)) -> Result<Engine> {
+        let capacities = Capacities {
+            visible_clusters: self.config.visible_cluster_capacity,
+            light_indices: self.config.light_index_capacity,
+        };
+        let mode = Mode { lights: self.lights.len() as u32, capacities, assigner, counting };
+        let mut engine =
+            Engine::new(session, self.config, self.method, std::slice::from_ref(self.plan), mode)?;
+        loop {
+            self.render(session, &mut engine)?;
+            if !engine.grow_if_needed(session, SLOT, self.plan.frame)? {
+                return Ok(engine);
+            }
+        }
+    }
+
+    fn render(&self, session: &mut Session, engine: &mut Engine) -> Result<()> {
+        let extend = (&mut readback::clear_counters as _, &mut temporal::nothing as _);
+        engine.submit(session, SLOT, self.plan, self.lights, extend)?;
+        session.slots[SLOT].wait()
+    }
+
+    fn count(&self, session: &mut Session, assigner: Assigner) -> Result<BenchRow> {
+        let mut engine = self.engine(session, (assigner, true))?;
+        let states = engine.states(session, SLOT);
+        let mut intersection_tests = 0;
+        for (clustering, state) in states.iter().enumerate() {
+            let at = (SLOT, self.plan.frame, clustering);
+            let read = Counted::read(&mut engine, session, at, (*state, self.lights.len() as u32))?;
+            intersection_tests += read.counter(Counter::IntersectionTests);
+        }
+        let sum = |count: fn(&ClusteringState) -> u32| states.iter().map(|s| u64::from(count(s))).sum();
+        Ok(BenchRow {
+            lights: self.lights.len() as u32,
+            method: self.method.to_string(),
+            assign: assigner.to_string(),
+            test: match self.method {
+                MethodSpec::Clustered { space: Space::Ortho { .. }, .. } => "box",
+                _ => "hs",
+            },
+            frame: self.plan.frame,
+            visible_clusters: sum(|state| state.visible_total),
+            light_indices: sum(|state| state.index_total),
+            intersection_tests,
+            gpu_ms: f64::INFINITY,
+        })
+    }
+
+    fn time(&self, session: &mut Session, engine: &mut Engine) -> Result<f64> {
+        self.render(session, engine)?;
+        let times: Vec<f64> = session.slots[SLOT].timestamps.read()?.map(|(gpu_ms, _)| gpu_ms).collect();
+        let of_assignment = |path: &str| path.rsplit('/').next().is_some_and(|stage| STAGES.contains(&stage));
+        Ok(engine.tree.paths().zip(times).filter(|(path, _)| of_assignment(path)).map(|(_, ms)| ms).sum())
+    }
+}

@@ -1,0 +1,116 @@
+//! All ways of assignment give the same lists, word for word.
+
+use super::*;
+use crate::config::Assign;
+use crate::passes::hierarchy;
+
+/// What a way of assignment made of one case: offsets of all segments, then the lists.
+#[derive(PartialEq, Eq)]
+struct Lists {
+    offsets: Vec<u32>,
+    indices: Vec<u32>,
+}
+
+/// The lists of every set of lights among the clusters of `bits`.
+fn lists_of(
+    assign: Assign,
+    (method, grid): (MethodSpec, Grid),
+    sets: &[Vec<PointLight>],
+    bits: &[u32],
+) -> Vec<Lists> {
+    let most = sets.iter().max_by_key(|lights| lights.len()).expect("a case has lights");
+    let room = Capacities { visible_clusters: grid.cluster_count() as u32, light_indices: 6_000_000 };
+    let config = Config { assign, ..config() };
+    let mut bench = Bench::with_config(&config, method, grid, most, room);
+    let plan = FramePlan { frame: 0, views: vec![view()], grids: vec![grid] };
+    sets.iter()
+        .map(|lights| {
+            bench.engine.write_host_data(&mut bench.session, 0, &plan, lights);
+            bench.compact(bits);
+            bench.lists(assign, lights.len() as u32)
+        })
+        .collect()
+}
+
+impl Bench {
+    fn lists(&mut self, assign: Assign, lights: u32) -> Lists {
+        self.run(|r, frame| {
+            crate::passes::lights::record(r, frame);
+            assign::transform_lights(r, frame, 0);
+            if assign == Assign::Hierarchy {
+                hierarchy::build_hierarchy(r, frame, 0);
+            }
+            assign::count_lights(r, frame, 0);
+            scan::light_offsets(r, frame, 0);
+            assign::assign_lights(r, frame, 0);
+            readback::states(r, frame);
+        });
+        let state = self.engine.states(&self.session, 0)[0];
+        let segments = state.visible * clustering::segments(lights).0;
+        Lists {
+            offsets: self.download(|c| &c.buffers.list_offsets, segments as usize + 1),
+            indices: self.download(|c| &c.buffers.light_indices, state.index_total.max(1) as usize),
+        }
+    }
+}
+
+fn random_lights(count: u32, seed: u64, extent: f32, radius: impl Fn(f32) -> f32) -> Vec<PointLight> {
+    let mut random = noise(seed);
+    let mut unit = move || (random() % 65_536) as f32 / 65_536.0;
+    (0..count)
+        .map(|_| PointLight {
+            position: [0; 3].map(|_| (2.0 * unit() - 1.0) * extent),
+            tint: [1.0; 3],
+            intensity: 1.0,
+            cutoff: 0.5,
+            r0: 0.01,
+            r1: radius(unit()),
+        })
+        .collect()
+}
+
+/// Lights that trees and ranges may stumble over, each set beside ordinary ones of a like number.
+fn light_sets() -> Vec<Vec<PointLight>> {
+    let one_place = |count| vec![random_lights(1, 3, 2.0, |_| 6.0)[0]; count];
+    vec![
+        random_lights(1, 1, 1.0, |_| 3.0),
+        random_lights(9, 2, 20.0, |_| 8.0),
+        lights(1000),
+        // Radii from centimetres to more than the grid.
+        random_lights(3001, 4, 40.0, |u| 0.02 * 10_000f32.powf(u * u)),
+        one_place(700),
+        random_lights(500, 5, 9000.0, |_| 30.0),
+        // Too many for bits.
+        random_lights(20_001, 6, 60.0, |u| 0.1 + 3.0 * u),
+        random_lights(17_000, 7, 60.0, |u| 0.02 * 3000f32.powf(u.powi(8))),
+        one_place(16_500),
+        random_lights(18_000, 8, 9000.0, |_| 100.0),
+    ]
+}
+
+fn all_ways_agree(method: MethodSpec, grid: Grid, sparsity: u32) {
+    let bits = random_bits(grid.cluster_count(), sparsity, 11);
+    let sets = light_sets();
+    let brute = lists_of(Assign::Brute, (method, grid), &sets, &bits);
+    for assign in [Assign::Hierarchy, Assign::Scatter] {
+        let lists = lists_of(assign, (method, grid), &sets, &bits);
+        for (case, (these, those)) in lists.iter().zip(&brute).enumerate() {
+            assert!(these.offsets == those.offsets, "{assign:?}, set {case}: other lengths");
+            assert!(these.indices == those.indices, "{assign:?}, set {case}: other lists");
+        }
+    }
+    assert!(
+        brute.iter().filter(|lists| lists.indices.len() > 1000).count() > 5,
+        "next to nothing is assigned"
+    );
+}
+
+#[test]
+fn perspective_lists_are_the_same_by_all_ways() {
+    all_ways_agree(PERSP, frustum_grid([13, 9, 21]), 7);
+}
+
+#[test]
+fn orthographic_lists_are_the_same_by_all_ways() {
+    all_ways_agree(ORTHO, box_grid([17, 13, 11]), 7);
+}

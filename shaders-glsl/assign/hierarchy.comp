@@ -1,0 +1,53 @@
+// Assignment by the light hierarchy: a thread takes one visible cluster down some of the tree's subtrees.
+//
+// Nodes are tested conservatively, lights by the test of brute force on the same numbers: the lists are the same.
+// The walk is depth-first and keeps no stack, for a place names its parent. The subtrees at TREE_CUT are dealt out
+// to the threads of a cluster in turn.
+// WRITE_LISTS 0 counts (pass count_lights), 1 writes (pass assign_lights).
+#version 460
+#include "lib/counters.glsl"
+#include "lib/light_tree.glsl"
+#include "lib/list_builder.glsl"
+
+layout(local_size_x = ASSIGN_GROUP) in;
+
+const uint TREE_CUT = 2u;
+
+void main()
+{
+    uint visible = gl_GlobalInvocationID.x;
+    if (visible >= state.visible)
+        return;
+    CellBounds cell = cell_bounds(cell_of_linear(visible_clusters[visible]));
+    uint lights_there = state.tree_lights;
+    uint cut = min(TREE_CUT, grid.tree_depth - 1u);
+    uint root = gl_WorkGroupID.y;
+    uint depth = cut, place = root, tests = 0u;
+    while (first_light(depth, place) < lights_there) {
+        ++tests;
+        bool hit = may_meet(cell, light_nodes[node_index(depth, place)]);
+        if (hit && depth + 1u < grid.tree_depth) {
+            ++depth;
+            place *= TREE_WIDTH;
+            continue;
+        }
+        if (hit) {
+            uint first = place * TREE_WIDTH;
+            uint end = min(first + TREE_WIDTH, lights_there);
+            for (uint i = first; i < end; ++i)
+                if (meets(cell, tree_spheres[i]))
+                    add_light(visible, tree_lights[i]);
+            tests += end - first;
+        }
+        ++place;
+        while (depth > cut && place % TREE_WIDTH == 0u) {
+            --depth;
+            place /= TREE_WIDTH;
+        }
+        if (depth == cut) {
+            root += grid.segment_count;
+            place = root;
+        }
+    }
+    count(COUNTER_INTERSECTION_TESTS, tests);
+}

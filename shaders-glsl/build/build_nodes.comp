@@ -1,0 +1,60 @@
+// The nodes of one depth of the light hierarchy (push.step) from their children: nodes of the next depth, or lights.
+#version 460
+#include "lib/light_tree.glsl"
+
+layout(local_size_x = ASSIGN_GROUP) in;
+
+// Rounding of the sums in node tests and of the boxes themselves, relative to the coordinates.
+const float NODE_SLACK = 4e-6;
+
+struct Hull {
+    vec3 low, high;
+    float radius;
+};
+
+void include(inout Hull hull, vec3 low, vec3 high, float radius)
+{
+    hull = Hull(min(hull.low, low), max(hull.high, high), max(hull.radius, radius));
+}
+
+Hull hull_of_lights(uint first)
+{
+    Hull hull = Hull(vec3(1e38), vec3(-1e38), 0.0);
+    uint items = (grid.sort_passes - 1u & 1u) * grid.light_count;
+    for (uint i = first; i < min(first + TREE_WIDTH, state.tree_lights); ++i) {
+        uint light = sort_items[items + i].y;
+        vec4 sphere = light_spheres[light];
+        tree_spheres[i] = sphere;
+        tree_lights[i] = light;
+        include(hull, sphere.xyz, sphere.xyz, sphere.w);
+    }
+    return hull;
+}
+
+Hull hull_of_nodes(uint depth, uint first)
+{
+    Hull hull = Hull(vec3(1e38), vec3(-1e38), 0.0);
+    for (uint place = first; place < first + TREE_WIDTH && first_light(depth, place) < state.tree_lights; ++place) {
+        LightNode node = light_nodes[node_index(depth, place)];
+        include(hull, node.centre - node.half_extent, node.centre + node.half_extent, node.radius);
+    }
+    return hull;
+}
+
+void main()
+{
+    uint depth = push.step;
+    uint place = gl_GlobalInvocationID.x;
+    if (first_light(depth, place) >= state.tree_lights)
+        return;
+    Hull hull;
+    if (depth + 1u == grid.tree_depth)
+        hull = hull_of_lights(place * TREE_WIDTH);
+    else
+        hull = hull_of_nodes(depth + 1u, place * TREE_WIDTH);
+    vec3 centre = 0.5 * (hull.low + hull.high);
+    vec3 half_extent = 0.5 * (hull.high - hull.low);
+    vec3 reach = abs(centre) + half_extent;
+    float slack = NODE_SLACK * (max(max(reach.x, reach.y), reach.z) + hull.radius);
+    light_nodes[node_index(depth, place)] = LightNode(centre, hull.radius + slack, half_extent + slack);
+}
