@@ -31,7 +31,6 @@ pub fn compact(r: &mut Recorder, frame: &Frame, clustering: usize) {
             Access::buffer(b.cluster_bits.handle, Use::ComputeRead),
             Access::buffer(b.word_ranks.handle, Use::ComputeWrite),
             Access::buffer(b.visible_clusters.handle, Use::ComputeWrite),
-            Access::buffer(b.dispatches.handle, Use::ComputeWrite),
         ]);
         let blocks = Blocks::Count(this.word_count.div_ceil(SCAN_BLOCK));
         scan(r, frame, clustering, &frame.pipelines.clustered().compact, blocks);
@@ -42,10 +41,7 @@ pub fn compact(r: &mut Recorder, frame: &Frame, clustering: usize) {
 pub fn light_offsets(r: &mut Recorder, frame: &Frame, clustering: usize) {
     r.scope("light_offsets", |r| {
         let b = &frame.clusterings[clustering].buffers;
-        r.access(&[
-            Access::buffer(b.segment_counts.handle, Use::ComputeRead),
-            Access::buffer(b.dispatches.handle, Use::Indirect),
-        ]);
+        r.access(&[Access::buffer(b.segment_counts.handle, Use::ComputeRead)]);
         let blocks = Blocks::Indirect(DISPATCH_SCAN);
         scan(r, frame, clustering, &frame.pipelines.clustered().light_offsets, blocks);
     });
@@ -54,15 +50,11 @@ pub fn light_offsets(r: &mut Recorder, frame: &Frame, clustering: usize) {
 /// Where each digit of each block goes, in pass `step` of the sort of lights; the step is pushed already.
 pub(super) fn digit_offsets(r: &mut Recorder, frame: &Frame, clustering: usize, step: u32) {
     let b = &frame.clusterings[clustering].buffers;
-    let first = step == 0;
-    r.access(&[
-        Access::buffer(b.digit_counts.handle, Use::ComputeWrite),
-        Access::buffer(b.dispatches.handle, if first { Use::ComputeWrite } else { Use::Indirect }),
-    ]);
+    r.access(&[Access::buffer(b.digit_counts.handle, Use::ComputeWrite)]);
     let counts = frame.light_count.div_ceil(SORT_BLOCK) * SORT_DIGITS;
-    let blocks = match first {
-        true => Blocks::Count(counts.div_ceil(SCAN_BLOCK)),
-        false => Blocks::Indirect(DISPATCH_SORT_SCAN),
+    let blocks = match step {
+        0 => Blocks::Count(counts.div_ceil(SCAN_BLOCK)),
+        _ => Blocks::Indirect(DISPATCH_SORT_SCAN),
     };
     scan(r, frame, clustering, &frame.pipelines.accelerated().digit_offsets, blocks);
 }
@@ -74,8 +66,13 @@ fn scan(r: &mut Recorder, frame: &Frame, clustering: usize, pipelines: &ScanPipe
         (&pipelines.block_offsets, Blocks::Count(1)),
         (&pipelines.apply, blocks),
     ] {
-        // Each dispatch reads what the one before it wrote here.
+        // Each dispatch reads what the one before it wrote here; the middle one may write dispatch sizes.
+        let sizes = match blocks {
+            Blocks::Count(_) => Use::ComputeWrite,
+            Blocks::Indirect(_) => Use::Indirect,
+        };
         r.access(&[
+            Access::buffer(b.dispatches.handle, sizes),
             Access::buffer(b.block_sums.handle, Use::ComputeWrite),
             Access::buffer(b.state.handle, Use::ComputeWrite),
             Access::buffer(b.list_offsets.handle, Use::ComputeWrite),
