@@ -42,14 +42,16 @@ pub struct AssignCounts {
     pub clusters: u64,
 }
 
-/// Cost of sorting a light and building its share of the tree, in tests of a sphere against a cell.
-const COST_BUILD: f64 = 12.0;
+/// Cost of sorting a light and building its share of the tree, in tests of a sphere against a cell (measured, as the
+/// others, with `bench assign` on lavapipe).
+const COST_BUILD: f64 = 50.0;
 /// Tests that the hierarchy makes for each light that it finds.
 const COST_FOUND: f64 = 5.0;
 /// Tests for each cluster on the way down.
 const COST_DESCENT: f64 = 40.0;
-/// Cost of finding a light's range of cells.
-const COST_RANGE: f64 = 4.0;
+/// Cost of finding and walking a light's range of cells: threads wait for the light of their group that is nearest
+/// to the camera.
+const COST_RANGE: f64 = 600.0;
 /// Cost of each cell in it; most are skipped by the word.
 const COST_CELL: f64 = 0.5;
 
