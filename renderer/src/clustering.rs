@@ -117,6 +117,16 @@ impl ClusteringSizes {
         self.words().max(self.list_segments()).max(self.digit_counts())
     }
 
+    /// The most entries that the device's buffers hold.
+    pub fn most(&self, limits: &Limits) -> Capacities {
+        let words = limits.max_storage_buffer_range / 4;
+        let entries = |words: u64| u32::try_from(words).unwrap_or(u32::MAX);
+        Capacities {
+            visible_clusters: entries((words - 1) / u64::from(segments(self.lights).0)),
+            light_indices: entries(words),
+        }
+    }
+
     /// Refuses what the device cannot hold or dispatch, naming the largest fault.
     pub fn check(&self, limits: &Limits) -> Result<()> {
         for (name, size) in self.bytes() {

@@ -14,10 +14,11 @@ layout(location = 0) out vec4 out_color;
 
 void main()
 {
+    TextureCoordinates at = texture_coordinates(uv);
     ViewData view = views[push.view];
     vec3 towards_camera = -normalize(view_position(view, gl_FragCoord.xy, gl_FragCoord.z));
     vec3 n = normalize(normal);
     float lamp = abs(dot(n, mat3(view.world_from_view) * towards_camera));
     float light = 0.25 + 0.45 * lamp + 0.3 * (0.5 + 0.5 * n.y);
-    out_color = vec4(base_color(materials[material_index], uv, color).rgb * light, light);
+    out_color = vec4(base_color(materials[material_index], at, color).rgb * light, light);
 }

@@ -190,12 +190,21 @@ impl Config {
         Ok(())
     }
 
+    /// Whether a scene or recording is given that is not the default: beside several scenes, a resolved configuration
+    /// names the default one.
+    fn names_another_scene(layer: &Layer) -> bool {
+        let default = Self::default();
+        let other =
+            |given: &Option<String>, default: &str| given.as_deref().is_some_and(|name| name != default);
+        other(&layer.scene, &default.scene) || other(&layer.recording, &default.recording)
+    }
+
     /// One scene and several replace each other. A resolution or frames that the layer gives hold for the scenes of
     /// layers below, whatever those said.
     fn apply_scenes(&mut self, layer: &Layer) -> Result<(), String> {
         let one = layer.scene.is_some() || layer.recording.is_some();
         match &layer.scenes {
-            Some(_) if one => {
+            Some(_) if Self::names_another_scene(layer) => {
                 return Err("scenes excludes scene and recording: give one or the other".into());
             }
             Some(scenes) => self.scenes = scenes.clone(),

@@ -15,6 +15,7 @@ use crate::lights::PointLight;
 use crate::measure::{Capacities, GrowthEvent};
 use crate::methods::MethodSpec;
 use crate::pass::{Recorder, ScopeTree};
+use crate::passes::readback::STATE_BYTES;
 use crate::pipelines::{Pipelines, Variant};
 use crate::vk::{Buffer, Context, Memory};
 use ash::vk;
@@ -270,15 +271,16 @@ impl Engine {
         }
         session.context.wait_idle()?;
         let states = self.states(session, slot);
+        let most = self.sizes.most(&session.context.limits);
         let capacities = &mut self.sizes.capacities;
         let visible = most_needed(&states, |state| state.visible_total);
         let indices = most_needed(&states, |state| state.index_total);
-        for (buffer, capacity, (clustering, needed)) in [
-            ("visible_clusters", &mut capacities.visible_clusters, visible),
-            ("light_indices", &mut capacities.light_indices, indices),
+        for (buffer, capacity, (clustering, needed), most) in [
+            ("visible_clusters", &mut capacities.visible_clusters, visible, most.visible_clusters),
+            ("light_indices", &mut capacities.light_indices, indices, most.light_indices),
         ] {
             if needed > *capacity {
-                let (from, to) = (*capacity, with_margin(needed));
+                let (from, to) = (*capacity, with_margin(needed, most));
                 *capacity = to;
                 let buffer = buffer.to_owned();
                 self.growth.push(GrowthEvent { frame, clustering, buffer, from, to });
@@ -291,11 +293,12 @@ impl Engine {
     /// Whether the frame that ended in `slot` needed more than the buffers hold.
     pub fn overflowed(&self, session: &Session, slot: usize) -> bool {
         let Capacities { visible_clusters, light_indices } = self.sizes.capacities;
+        let mut state = [ClusteringState::default()];
         self.method != MethodSpec::AllLights
-            && self
-                .states(session, slot)
-                .iter()
-                .any(|s| s.visible_total > visible_clusters || s.index_total > light_indices)
+            && (0..self.clusterings.len() as u64).any(|clustering| {
+                session.slots[slot].states.read_into(clustering * STATE_BYTES, &mut state);
+                state[0].visible_total > visible_clusters || state[0].index_total > light_indices
+            })
     }
 }
 
@@ -304,8 +307,9 @@ fn most_needed(states: &[ClusteringState], need: impl Fn(&ClusteringState) -> u3
     (0..).zip(states.iter().map(need)).max_by_key(|&(_, needed)| needed).unwrap_or_default()
 }
 
-fn with_margin(needed: u32) -> u32 {
-    needed.saturating_add(needed / GROWTH_MARGIN)
+/// `needed` with spare room, as far as `most` allows.
+fn with_margin(needed: u32, most: u32) -> u32 {
+    needed.saturating_add(needed / GROWTH_MARGIN).min(most).max(needed)
 }
 
 fn light_data(light: &PointLight) -> LightData {
