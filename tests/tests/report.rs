@@ -17,6 +17,7 @@ fn write_run(out: &Path, scene: [&str; 2], views: u32, method: &str, lights: u32
     let lighting = Config::default().lights[0];
     let manifest = Manifest {
         fingerprint: String::new(),
+        assigned_by: "brute".into(),
         format: RUN_FORMAT,
         version: "0.1.0",
         git_revision: "unknown",
