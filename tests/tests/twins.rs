@@ -117,11 +117,12 @@ fn compare_marks(recording: &str, method: &str, marking: Marking) {
     let views_of_grid = plan.views.len() / plan.grids.len();
     for (c, grid) in plan.grids.iter().enumerate() {
         let mut marks = Marks::none(grid);
-        for v in c * views_of_grid..(c + 1) * views_of_grid {
-            let depths = depths(&images[v], &plan.views[v]);
+        let views = images.iter().zip(&plan.views).skip(c * views_of_grid).take(views_of_grid);
+        for (pixels, view) in views {
+            let depths = depths(pixels, view);
             let image =
                 DepthImage { resolution: [160, 90], sample_positions: &[[0.5, 0.5]], depths: &depths };
-            cpu::mark(image, &plan.views[v], grid, 1e-3, &mut marks);
+            cpu::mark(image, view, grid, 1e-3, &mut marks);
         }
         let clusters = &run.counts[0].clusterings[c].clusters;
         assert!(clusters.len() > 10, "{method} marks next to nothing");

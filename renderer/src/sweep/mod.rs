@@ -6,7 +6,7 @@
 //! what is on disk ─> summary
 //! ```
 //!
-//! A run that is complete and carries the [`fingerprint`] it would get today is not made again, so an interrupted
+//! A run that is complete and carries the fingerprint it would get today is not made again, so an interrupted
 //! sweep goes on where it stood. Runs appear whole or not at all.
 
 mod driver;
