@@ -11,7 +11,7 @@ use crate::scene::SceneLight;
 use crate::{Error, Result};
 use serde::Serialize;
 
-/// A point light. Its influence ends at `r1` (METHODS of attenuation: Gelderen appendix A).
+/// A point light. Its influence ends at `r1` (Gelderen appendix A).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PointLight {
     /// World position, metres.

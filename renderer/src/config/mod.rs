@@ -43,7 +43,7 @@ pub struct Lighting {
     pub r0: f32,
 }
 
-/// Where the visible clusters of opaque and masked geometry are marked from (METHODS section 3).
+/// Where the visible clusters of opaque and masked geometry are marked from (Gelderen section 5.2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Marking {
@@ -53,7 +53,7 @@ pub enum Marking {
     Geometry,
 }
 
-/// Which frustum sizes the clusters of Displ (METHODS section 2.3).
+/// Which frustum sizes the clusters of Displ (Gelderen section 4.3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum DisplacedVolume {

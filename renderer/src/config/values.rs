@@ -14,7 +14,7 @@ use std::str::FromStr;
 /// Widest and highest view, pixels.
 pub(super) const MAX_RESOLUTION: u32 = 16384;
 
-/// All attenuation functions, in the order of METHODS section 5.
+/// All attenuation functions, in the order of their enum.
 pub(super) const ATTENUATIONS: [Attenuation; 9] = [
     Attenuation::Phy,
     Attenuation::Red,

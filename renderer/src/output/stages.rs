@@ -3,7 +3,7 @@
 use crate::measure::FrameTimes;
 use std::collections::BTreeMap;
 
-/// GPU time of every stage of every frame, milliseconds: its minimum over the temporal runs (METHODS section 7).
+/// GPU time of every stage of every frame, milliseconds: its minimum over the temporal runs.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StageMinima {
     frames: BTreeMap<u32, BTreeMap<String, f64>>,

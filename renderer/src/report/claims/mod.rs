@@ -1,4 +1,4 @@
-//! The claims of Gelderen chapter 6 (METHODS section 8), checked on whatever data there are.
+//! The claims of Gelderen chapter 6, checked on whatever data there are.
 //!
 //! A claim is a handful of comparisons, each with the numbers behind it. It holds where every comparison that could be
 //! made holds and all it needs were made; it does not hold where one fails. Criteria are fixed here, before any data.
@@ -31,7 +31,7 @@ pub enum Verdict {
 /// A claim with what was found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Claim {
-    /// Number in METHODS section 8.
+    /// Number, from 1, in the order of the chapter.
     pub number: u32,
     /// What is claimed.
     pub claim: &'static str,

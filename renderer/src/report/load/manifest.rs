@@ -121,7 +121,7 @@ impl RunFile {
     pub fn lighting(&self) -> LightingName {
         if let Some(Lighting { count, intensity, cutoff, r0 }) = self.lighting {
             let mut label = format!("{} lights", grouped(u64::from(count)));
-            // The thesis's intensity of each count goes without saying (METHODS section 6).
+            // The thesis's intensity of each count goes without saying.
             if !matches!((count, intensity), (1000, 100.0) | (10_000, 20.0) | (100_000, 1.0)) {
                 label += &format!(", I {intensity}");
             }
