@@ -1,18 +1,16 @@
 //! Tangents for normal maps.
-
-use std::thread;
+//!
+//! Where a file gives none they are made as MikkTSpace makes them (Mikkelsen, *Simulation of Wrinkled Surfaces
+//! Revisited*, 2008, which glTF 2.0 section 3.7.2.1 asks for): the faces around a vertex that map the texture the same
+//! way round, weighted by their angles there. Faces that meet in a vertex alone, without an edge, count as neighbours
+//! too; the tests compare the rest with the mikktspace crate, which takes ten times as long.
 
 use glam::{Vec2, Vec3};
 
-use super::TextureRef;
 use super::mesh::Mesh;
+use super::{TextureRef, Vertex};
 
-/// Above this many triangles mikktspace gets a thread of its own.
-const SMALL_MESH: usize = 2048;
-/// Mikktspace walks the triangles around a vertex recursively; no frame of that walk is larger.
-const STACK_BYTES_PER_TRIANGLE: usize = 512;
-
-/// No next copy of a vertex.
+/// No place yet.
 const NONE: u32 = u32::MAX;
 
 impl Mesh {
@@ -35,56 +33,119 @@ impl Mesh {
         }
     }
 
-    /// Generates tangents with mikktspace (Mikkelsen 2008, as glTF 2.0 section 3.7.2.1 asks) from the
-    /// coordinates that `normal_map` reads, its texture transform applied. Vertices whose faces disagree
-    /// (mirrored coordinates) are split.
+    /// Generates tangents from the coordinates that `normal_map` reads, its texture transform applied. Vertices whose
+    /// faces disagree (mirrored coordinates) are split.
     pub fn generate_tangents(&mut self, normal_map: &TextureRef) {
-        let mut corners = Corners::new(self, normal_map);
-        let recursion = corners.faces.len() * STACK_BYTES_PER_TRIANGLE;
-        let done = if corners.faces.len() <= SMALL_MESH {
-            mikktspace::generate_tangents(&mut corners)
-        } else {
-            on_large_stack(recursion, || mikktspace::generate_tangents(&mut corners))
-        };
-        let tangents = corners.tangents;
-        self.set_any_tangents();
-        if done {
-            self.split_by_tangent(&tangents);
+        let uvs = transformed_uvs(&self.vertices, normal_map);
+        let points = weld(&self.vertices, &uvs);
+        let faces: Vec<Option<Face>> =
+            self.indices.as_chunks::<3>().0.iter().map(|corners| self.face(corners, &uvs)).collect();
+        let mut sums = vec![[Vec3::ZERO; 2]; self.vertices.len()];
+        for (corners, face) in self.indices.as_chunks::<3>().0.iter().zip(&faces) {
+            let Some(face) = face else { continue };
+            for turn in 0..3 {
+                let corner = corners[turn] as usize;
+                let share = self.share(face, [turn, turn + 1, turn + 2].map(|i| corners[i % 3] as usize));
+                sums[points[corner] as usize][face.side] += share;
+            }
         }
+        self.give_tangents(&faces, |vertex| sums[points[vertex] as usize]);
     }
 
-    /// Gives each corner its tangent, copying a vertex that needs more than one.
-    fn split_by_tangent(&mut self, tangents: &[Option<[f32; 4]>]) {
-        let mut given = vec![false; self.vertices.len()];
-        let mut next_copy = vec![NONE; self.vertices.len()];
-        for (index, tangent) in self.indices.iter_mut().zip(tangents) {
-            let Some(tangent) = *tangent else { continue };
-            if !std::mem::replace(&mut given[*index as usize], true) {
-                self.vertices[*index as usize].tangent = tangent;
-                continue;
-            }
-            while self.vertices[*index as usize].tangent != tangent {
-                if next_copy[*index as usize] == NONE {
-                    let copy = self.vertices.len() as u32;
-                    self.vertices.push(super::Vertex { tangent, ..self.vertices[*index as usize] });
-                    given.push(true);
-                    next_copy.push(NONE);
-                    next_copy[*index as usize] = copy;
+    /// What a triangle says of its tangent; `None` without an area in space or in the texture.
+    fn face(&self, corners: &[u32; 3], uvs: &[Vec2]) -> Option<Face> {
+        let [a, b, c] = corners.map(|i| Vec3::from(self.vertices[i as usize].position));
+        let [ua, ub, uc] = corners.map(|i| uvs[i as usize]);
+        let (ab, ac) = (ub - ua, uc - ua);
+        let area = ab.perp_dot(ac);
+        let along_u = ((b - a) * ac.y - (c - a) * ab.y) * area.signum();
+        let flat = a == b || b == c || c == a || area == 0.0;
+        along_u
+            .try_normalize()
+            .filter(|_| !flat)
+            .map(|along_u| Face { along_u, side: usize::from(area > 0.0) })
+    }
+
+    /// What a face adds at its corner `at`: its tangent across the normal there, weighted by the angle.
+    fn share(&self, face: &Face, [at, next, last]: [usize; 3]) -> Vec3 {
+        let normal = Vec3::from(self.vertices[at].normal);
+        let from = Vec3::from(self.vertices[at].position);
+        let edge = |to: usize| {
+            let edge = Vec3::from(self.vertices[to].position) - from;
+            edge.reject_from_normalized(normal).normalize_or_zero()
+        };
+        let angle = edge(next).dot(edge(last)).clamp(-1.0, 1.0).acos();
+        face.along_u.reject_from_normalized(normal).normalize_or_zero() * angle
+    }
+
+    /// Gives each vertex the sum of its faces' side, and copies those with faces of both.
+    fn give_tangents(&mut self, faces: &[Option<Face>], sums: impl Fn(usize) -> [Vec3; 2]) {
+        let tangent = |vertex: usize, side: usize, normal| {
+            // The bitangent points up the image, and v down it: faces of positive area are mirrored.
+            let sign = if side == 1 { -1.0 } else { 1.0 };
+            across(sums(vertex)[side], normal).map(|tangent| tangent.extend(sign).to_array())
+        };
+        let mut placed = vec![[NONE; 2]; self.vertices.len()];
+        self.set_any_tangents();
+        for (corner, index) in self.indices.iter_mut().enumerate() {
+            let vertex = *index as usize;
+            let full = usize::from(sums(vertex)[0] == Vec3::ZERO);
+            let side = faces[corner / 3].as_ref().map_or(full, |face| face.side);
+            if placed[vertex][side] == NONE {
+                placed[vertex][side] = *index;
+                let mut copy = self.vertices[vertex];
+                copy.tangent = tangent(vertex, side, copy.normal).unwrap_or(any_tangent(copy.normal));
+                if placed[vertex][1 - side] == NONE {
+                    self.vertices[vertex] = copy;
+                } else {
+                    placed[vertex][side] = self.vertices.len() as u32;
+                    self.vertices.push(copy);
                 }
-                *index = next_copy[*index as usize];
             }
+            *index = placed[vertex][side];
         }
     }
 }
 
-/// Runs `work` on a thread with room for `bytes` of recursion (reserved, not touched, where not needed);
-/// false also where no such thread can be had.
-fn on_large_stack(bytes: usize, work: impl FnOnce() -> bool + Send) -> bool {
-    const BASE: usize = 1 << 20;
-    thread::scope(|scope| {
-        let thread = thread::Builder::new().stack_size(BASE + bytes).spawn_scoped(scope, work);
-        thread.is_ok_and(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
-    })
+/// How a triangle lies in its texture.
+struct Face {
+    /// Unit vector along which u grows.
+    along_u: Vec3,
+    /// 1 where the triangle turns the same way in the texture as in space, else 0.
+    side: usize,
+}
+
+fn transformed_uvs(vertices: &[Vertex], texture: &TextureRef) -> Vec<Vec2> {
+    let rows = texture.uv_transform.map(Vec3::from);
+    let uv = |vertex: &Vertex| {
+        let uv = Vec2::from(vertex.uv[texture.uv_slot as usize]).extend(1.0);
+        Vec2::from(rows.map(|row| row.dot(uv)))
+    };
+    vertices.iter().map(uv).collect()
+}
+
+/// For each vertex the first with the same position, normal and coordinates.
+fn weld(vertices: &[Vertex], uvs: &[Vec2]) -> Vec<u32> {
+    let key = |i: usize| (vertices[i].position, vertices[i].normal, uvs[i].to_array());
+    let slots = (2 * vertices.len()).next_power_of_two();
+    let mut table = vec![NONE; slots];
+    let first_equal = |i: usize| {
+        let (position, normal, uv) = key(i);
+        let words = position.into_iter().chain(normal).chain(uv);
+        // Adding zero makes both zeros one: they are equal.
+        let hash = words.fold(0_u64, |hash, x| {
+            (hash.rotate_left(5) ^ u64::from((x + 0.0).to_bits())).wrapping_mul(0x9E37_79B9_7F4A_7C15)
+        });
+        let mut slot = (hash >> 32) as usize % slots;
+        while table[slot] != NONE && key(table[slot] as usize) != key(i) {
+            slot = (slot + 1) % slots;
+        }
+        if table[slot] == NONE {
+            table[slot] = i as u32;
+        }
+        table[slot]
+    };
+    (0..vertices.len()).map(first_equal).collect()
 }
 
 fn any_tangent(normal: [f32; 3]) -> [f32; 4] {
@@ -97,82 +158,12 @@ fn across(tangent: Vec3, normal: [f32; 3]) -> Option<Vec3> {
     across.try_normalize().filter(|_| across.length_squared() > 1e-6)
 }
 
-/// The view of a mesh that mikktspace works on. Triangles without area are left out: they have no
-/// tangent, and mikktspace spends quadratic time on them.
-struct Corners<'a> {
-    mesh: &'a Mesh,
-    uv_slot: usize,
-    uv_transform: [Vec3; 2],
-    /// Triangles of the mesh that have three different corners.
-    faces: Vec<u32>,
-    /// By corner of the mesh.
-    tangents: Vec<Option<[f32; 4]>>,
-}
-
-impl<'a> Corners<'a> {
-    fn new(mesh: &'a Mesh, normal_map: &TextureRef) -> Self {
-        let position = |i: u32| mesh.vertices[i as usize].position;
-        let triangles = mesh.indices.as_chunks::<3>().0;
-        let faces = (0..triangles.len() as u32)
-            .filter(|&face| {
-                let [a, b, c] = triangles[face as usize].map(position);
-                a != b && b != c && c != a
-            })
-            .collect();
-        Self {
-            mesh,
-            uv_slot: normal_map.uv_slot as usize,
-            uv_transform: normal_map.uv_transform.map(Vec3::from),
-            faces,
-            tangents: vec![None; mesh.indices.len()],
-        }
-    }
-
-    fn corner(&self, face: usize, corner: usize) -> usize {
-        self.faces[face] as usize * 3 + corner
-    }
-
-    fn vertex(&self, face: usize, corner: usize) -> &super::Vertex {
-        &self.mesh.vertices[self.mesh.indices[self.corner(face, corner)] as usize]
-    }
-}
-
-impl mikktspace::Geometry for Corners<'_> {
-    fn num_faces(&self) -> usize {
-        self.faces.len()
-    }
-
-    fn num_vertices_of_face(&self, _face: usize) -> usize {
-        3
-    }
-
-    fn position(&self, face: usize, corner: usize) -> [f32; 3] {
-        self.vertex(face, corner).position
-    }
-
-    fn normal(&self, face: usize, corner: usize) -> [f32; 3] {
-        self.vertex(face, corner).normal
-    }
-
-    fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
-        let uv = Vec2::from(self.vertex(face, corner).uv[self.uv_slot]).extend(1.0);
-        self.uv_transform.map(|row| row.dot(uv))
-    }
-
-    fn set_tangent_encoded(&mut self, [x, y, z, sign]: [f32; 4], face: usize, corner: usize) {
-        let tangent = across(Vec3::new(x, y, z), self.vertex(face, corner).normal);
-        let corner = self.corner(face, corner);
-        // Mikktspace has v pointing up the image, glTF down it: the bitangent turns round.
-        self.tangents[corner] = tangent.map(|t| t.extend(-sign).to_array());
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
 
     use super::super::mesh::{PLAIN_VERTEX, tests::quad};
-    use super::super::{Sampler, Vertex, Wrap};
+    use super::super::{Sampler, Wrap};
     use super::*;
 
     fn reading(uv_transform: [[f32; 3]; 2]) -> TextureRef {
@@ -212,6 +203,84 @@ mod tests {
         for (corner, &index) in mesh.indices.iter().enumerate() {
             let expected = if corner < 6 { [1.0, 0.0, 0.0, 1.0] } else { [-1.0, 0.0, 0.0, -1.0] };
             assert_eq!(mesh.vertices[index as usize].tangent, expected, "corner {corner}");
+        }
+    }
+
+    /// What the mikktspace crate makes of a mesh, by corner.
+    struct Peer<'a> {
+        mesh: &'a Mesh,
+        tangents: Vec<[f32; 4]>,
+    }
+
+    impl Peer<'_> {
+        fn vertex(&self, face: usize, corner: usize) -> &Vertex {
+            &self.mesh.vertices[self.mesh.indices[3 * face + corner] as usize]
+        }
+    }
+
+    impl mikktspace::Geometry for Peer<'_> {
+        fn num_faces(&self) -> usize {
+            self.mesh.indices.len() / 3
+        }
+
+        fn num_vertices_of_face(&self, _face: usize) -> usize {
+            3
+        }
+
+        fn position(&self, face: usize, corner: usize) -> [f32; 3] {
+            self.vertex(face, corner).position
+        }
+
+        fn normal(&self, face: usize, corner: usize) -> [f32; 3] {
+            self.vertex(face, corner).normal
+        }
+
+        fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
+            self.vertex(face, corner).uv[0]
+        }
+
+        fn set_tangent_encoded(&mut self, [x, y, z, sign]: [f32; 4], face: usize, corner: usize) {
+            self.tangents[3 * face + corner] = [x, y, z, -sign];
+        }
+    }
+
+    /// A hilly sheet of `side` by `side` quads; its texture folds back along the middle.
+    fn sheet(side: u16) -> Mesh {
+        let height = |x: f32, y: f32| 0.3 * (3.0 * x).sin() * (2.0 * y).cos();
+        let at = |i: u16| {
+            let (x, y) = (f32::from(i % (side + 1)), f32::from(i / (side + 1)));
+            let (x, y) = (x / f32::from(side), y / f32::from(side));
+            let slope =
+                Vec3::new(height(x + 0.01, y) - height(x, y), height(x, y + 0.01) - height(x, y), 0.01);
+            let normal = Vec3::new(-slope.x, -slope.y, slope.z).normalize().to_array();
+            let uv = [(x - 0.5).abs() + 0.2 * y * y, y + 0.3 * x * x];
+            Vertex { position: [x, y, height(x, y)], normal, uv: [uv; 2], ..PLAIN_VERTEX }
+        };
+        let quad = |i: u16| {
+            let (low, high) = (u32::from(i), u32::from(i + side + 1));
+            [low, low + 1, high + 1, low, high + 1, high]
+        };
+        let quads = (0..side * (side + 1)).filter(|i| i % (side + 1) != side);
+        let vertices = (0..(side + 1) * (side + 1)).map(at).collect();
+        Mesh { vertices, indices: quads.flat_map(quad).collect(), material: 0 }
+    }
+
+    #[test]
+    fn tangents_are_those_of_mikktspace() {
+        let shared = sheet(12);
+        let corners = shared.indices.iter().map(|&i| shared.vertices[i as usize]).collect();
+        let indices = (0..shared.indices.len() as u32).collect();
+        let unshared = Mesh { vertices: corners, indices, material: 0 };
+        for mut mesh in [shared, unshared] {
+            let mut peer = Peer { mesh: &mesh, tangents: vec![[0.0; 4]; mesh.indices.len()] };
+            assert!(mikktspace::generate_tangents(&mut peer));
+            let expected = peer.tangents;
+            mesh.generate_tangents(&reading(TextureRef::IDENTITY));
+            for (corner, (&index, expected)) in mesh.indices.iter().zip(expected).enumerate() {
+                let found = glam::Vec4::from(mesh.vertices[index as usize].tangent);
+                let difference = (found - glam::Vec4::from(expected)).length();
+                assert!(difference < 1e-4, "corner {corner}: {found} for {expected:?}");
+            }
         }
     }
 
