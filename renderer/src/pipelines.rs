@@ -9,6 +9,7 @@ pub use debug::DebugPipelines;
 use crate::assign::Assigner;
 use crate::config::Marking;
 use crate::draw_list::SurfaceKind;
+use crate::geometry::{Candidates, SphereTest};
 use crate::layouts::Layouts;
 use crate::lights::Attenuation;
 use crate::methods::{MethodSpec, Space};
@@ -36,6 +37,8 @@ pub struct Variant {
     pub marking: Marking,
     /// How the lists are built.
     pub assigner: Assigner,
+    /// What decides who is on them.
+    pub test: SphereTest,
     /// How lights fade.
     pub attenuation: Attenuation,
     /// Whether counters are compiled in: the atemporal run.
@@ -63,6 +66,27 @@ impl Variant {
             .with("SAMPLES", self.samples)
             .with("PER_SAMPLE", u32::from(self.per_sample()))
             .with("COUNTERS", u32::from(self.counting))
+    }
+
+    /// Those of shaders that ask what a sphere meets besides.
+    fn test_defines(&self) -> Defines {
+        let boxes = matches!(self.method, MethodSpec::Clustered { space: Space::Ortho { .. }, .. });
+        let nearest = matches!(self.test, SphereTest::Exact | SphereTest::Box);
+        // Planes are cheaper than the nearest point, but for boxes.
+        let half_spaces = self.test.asks(Candidates::HALF_SPACES) || nearest && !boxes;
+        let [edges, nearest_vertex, normals, vertices] =
+            [Candidates::EDGES, Candidates::NEAREST_VERTEX, Candidates::NORMALS, Candidates::VERTICES]
+                .map(|candidates| self.test.asks(candidates));
+        // The edges of boxes are their normals.
+        let bounded = half_spaces || normals || nearest || boxes && edges;
+        self.defines()
+            .with("TEST_HS", u32::from(half_spaces))
+            .with("TEST_SAT_E", u32::from(edges))
+            .with("TEST_SAT_N", u32::from(nearest_vertex))
+            .with("TEST_SAT_P", u32::from(normals))
+            .with("TEST_SAT_V", u32::from(vertices))
+            .with("TEST_NEAREST", u32::from(nearest))
+            .with("TEST_BOUNDED", u32::from(bounded))
     }
 }
 
@@ -192,7 +216,7 @@ impl PipelineStore {
         };
         let accelerated = match variant.assigner {
             Assigner::Brute => None,
-            Assigner::Hierarchy | Assigner::Scatter => Some(self.accelerated(&variant.defines())?),
+            Assigner::Hierarchy | Assigner::Scatter => Some(self.accelerated(variant)?),
         };
         Ok(Pipelines {
             depth_opaque: self.graphics(variant, None, Output::Depth)?,
@@ -204,7 +228,8 @@ impl PipelineStore {
         })
     }
 
-    fn accelerated(&mut self, defines: &Defines) -> Result<AcceleratedPipelines> {
+    fn accelerated(&mut self, variant: &Variant) -> Result<AcceleratedPipelines> {
+        let (defines, tests) = (&variant.defines(), &variant.test_defines());
         let read_masks = "assign/read_masks.comp";
         Ok(AcceleratedPipelines {
             clear_lists: self.compute("assign/clear_lists.comp", defines)?,
@@ -213,15 +238,15 @@ impl PipelineStore {
                 self.compute(read_masks, &defines.with("WRITE_LISTS", 1))?,
             ],
             sort_lists: self.compute("assign/sort_lists.comp", defines)?,
-            count_digits: self.compute("build/count_digits.comp", defines)?,
+            count_digits: self.compute("build/count_digits.comp", tests)?,
             digit_offsets: self.scan(defines, "SCAN_DIGITS")?,
             reorder: self.compute("build/reorder.comp", defines)?,
-            build_nodes: self.compute("build/build_nodes.comp", defines)?,
+            build_nodes: self.compute("build/build_nodes.comp", tests)?,
         })
     }
 
     fn clustered(&mut self, variant: &Variant) -> Result<ClusteredPipelines> {
-        let defines = variant.defines();
+        let (defines, tests) = (variant.defines(), variant.test_defines());
         let assign = match variant.assigner {
             Assigner::Brute => "assign/brute.comp",
             Assigner::Hierarchy => "assign/hierarchy.comp",
@@ -232,9 +257,9 @@ impl PipelineStore {
             count_fragments: self.mark(variant, true)?,
             compact: self.scan(&defines, "SCAN_VISIBILITY")?,
             transform_lights: self.compute("assign/transform_lights.comp", &defines)?,
-            count_lights: self.compute(assign, &defines.with("WRITE_LISTS", 0))?,
+            count_lights: self.compute(assign, &tests.with("WRITE_LISTS", 0))?,
             light_offsets: self.scan(&defines, "SCAN_LIST_LENGTHS")?,
-            assign_lights: self.compute(assign, &defines.with("WRITE_LISTS", 1))?,
+            assign_lights: self.compute(assign, &tests.with("WRITE_LISTS", 1))?,
         })
     }
 

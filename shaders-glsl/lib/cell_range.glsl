@@ -1,7 +1,8 @@
 // Which cells a sphere can meet: an index range per axis that holds every cell whose test (lib/intersect.glsl) passes.
 //
 // The range follows from the planes that the test uses, not from the sphere alone: HS also accepts spheres that miss
-// the cell, and those are in it too. MARGIN covers rounding.
+// the cell, and those are in it too. MARGIN covers rounding. What a test without half spaces accepts (TEST_BOUNDED 0) may
+// lie anywhere.
 #pragma once
 
 #include "lib/cluster_space.glsl"
@@ -25,7 +26,14 @@ ivec2 cells_between(float low, float high, float error, uint count)
                  min(int(floor(clamp(high + MARGIN + error, -1.0, last + 1.0))), int(count) - 1));
 }
 
-#if SPACE == SPACE_PERSPECTIVE
+#if !TEST_BOUNDED
+
+CellRange cells_near(vec4 sphere)
+{
+    return CellRange(ivec3(0), ivec3(grid.dimensions) - 1);
+}
+
+#elif SPACE == SPACE_PERSPECTIVE
 
 // Columns (or rows) whose two side planes, moved out by the radius, hold a centre `across` the axis at `depth`.
 // Where the sphere stays in front of the apex by its radius, those are the tangents between its two silhouette lines.

@@ -1,73 +1,68 @@
-// Sphere against cell, one test per grid shape. `sphere` is (centre in the clustering camera's space, radius).
-// Every step is `precise`: all ways of assignment get the same answer, to the bit.
+// Sphere against cell: what decides whether a light gets onto a cell's list. `sphere` is (centre in the clustering
+// camera's space, radius); the test is the variant's, put together from these parts (Enhuber sections 2.6, 3.5.2):
+//
+//   TEST_HS       half spaces: the centre lies within the cell's six planes, moved out by the radius
+//   TEST_SAT_*    no separating axis among the edges (E), the planes' normals (P), and the axes from the centre to each
+//                 vertex (V) or to the nearest one (N)
+//   TEST_NEAREST  the nearest point of the cell lies in the sphere: exact
+//
+// The cheap parts come first. Every step is `precise`: all ways of assignment get the same answer, to the bit. Any axis
+// that separates proves that the two do not meet, so rounding of an axis costs nothing but a false positive; rounding
+// of what is projected to it is covered by the slack of the radii, as that of planes is.
+//
+// What passes half spaces, normals or the nearest point lies within the planes moved out: ranges (lib/cell_range.glsl)
+// and nodes (meets_grown) are cut by these. Nothing so simple bounds the other axes alone (TEST_BOUNDED 0): there,
+// nothing is cut.
 #pragma once
 
 #include "lib/cluster_space.glsl"
 
 #if SPACE == SPACE_PERSPECTIVE
-
-// HS (Enhuber section 3.5.2): the centre inside the six planes moved out by the radius.
-struct CellBounds {
-    // Unit normals in the xz (left, right) and yz (bottom, top) plane, pointing inwards.
-    vec2 left, right, bottom, top;
-    float z_near, z_far;
-};
-
-float slice_depth(uint slice)
-{
-    precise float depth = -grid.origin.z * exp2(float(slice) * grid.cell.z);
-    return depth;
-}
-
-CellBounds cell_bounds(uvec3 cell)
-{
-    precise vec2 low = grid.origin.xy + grid.cell.xy * vec2(cell.xy);
-    precise vec2 high = grid.origin.xy + grid.cell.xy * vec2(cell.xy + 1u);
-    return CellBounds(normalize(vec2(1.0, low.x)), -normalize(vec2(1.0, high.x)), normalize(vec2(1.0, low.y)),
-                      -normalize(vec2(1.0, high.y)), slice_depth(cell.z), slice_depth(cell.z + 1u));
-}
-
-bool meets(CellBounds cell, vec4 sphere)
-{
-    precise vec4 sides = vec4(dot(cell.left, sphere.xz), dot(cell.right, sphere.xz), dot(cell.bottom, sphere.yz), dot(cell.top, sphere.yz));
-    precise vec2 ends = vec2(cell.z_near - sphere.z, sphere.z - cell.z_far);
-    return min(min(min(sides.x, sides.y), min(sides.z, sides.w)), min(ends.x, ends.y)) >= -sphere.w;
-}
-
-// Whether a sphere whose centre lies anywhere in a box may meet the cell; `sphere` has the box's centre.
-bool meets_grown(CellBounds cell, vec4 sphere, vec3 half_extent)
-{
-    vec4 sides = vec4(dot(cell.left, sphere.xz), dot(cell.right, sphere.xz), dot(cell.bottom, sphere.yz), dot(cell.top, sphere.yz));
-    sides += vec4(dot(abs(cell.left), half_extent.xz), dot(abs(cell.right), half_extent.xz),
-                  dot(abs(cell.bottom), half_extent.yz), dot(abs(cell.top), half_extent.yz));
-    vec2 ends = vec2(cell.z_near - sphere.z, sphere.z - cell.z_far) + half_extent.z;
-    return min(min(min(sides.x, sides.y), min(sides.z, sides.w)), min(ends.x, ends.y)) >= -sphere.w;
-}
-
+#include "lib/cell_frustum.glsl"
 #else
-
-// Nearest point of the box: exact.
-struct CellBounds {
-    vec3 centre, half_extent;
-};
-
-CellBounds cell_bounds(uvec3 cell)
-{
-    precise CellBounds bounds = CellBounds(grid.origin + grid.cell * (vec3(cell) + 0.5), 0.5 * grid.cell);
-    return bounds;
-}
+#include "lib/cell_box.glsl"
+#endif
+#if TEST_SAT_N || TEST_SAT_V
+#include "lib/separating_vertices.glsl"
+#endif
 
 bool meets(CellBounds cell, vec4 sphere)
 {
-    precise vec3 outside = max(abs(sphere.xyz - cell.centre) - cell.half_extent, 0.0);
-    precise vec2 squares = vec2(dot(outside, outside), sphere.w * sphere.w);
-    return squares.x <= squares.y;
+#if TEST_HS || TEST_SAT_P
+    if (!within_planes(cell, sphere))
+        return false;
+#endif
+#if TEST_SAT_P
+    if (normals_separate(cell, sphere))
+        return false;
+#endif
+#if TEST_SAT_E
+    if (edges_separate(cell, sphere))
+        return false;
+#endif
+#if TEST_SAT_N
+    if (nearest_vertex_separates(cell, sphere))
+        return false;
+#endif
+#if TEST_SAT_V
+    if (vertices_separate(cell, sphere))
+        return false;
+#endif
+#if TEST_NEAREST
+    return nearest_point_within(cell, sphere);
+#else
+    return true;
+#endif
 }
 
 // Whether a sphere whose centre lies anywhere in a box may meet the cell; `sphere` has the box's centre.
 bool meets_grown(CellBounds cell, vec4 sphere, vec3 half_extent)
 {
-    return meets(CellBounds(cell.centre, cell.half_extent + half_extent), sphere);
-}
-
+#if !TEST_BOUNDED
+    return true;
+#elif SPACE == SPACE_ORTHOGRAPHIC && TEST_NEAREST
+    return nearest_point_within(CellBounds(cell.centre, cell.half_extent + half_extent), sphere);
+#else
+    return within_planes_grown(cell, sphere, half_extent);
 #endif
+}

@@ -2,7 +2,7 @@
 
 use super::{Console, Interrupt};
 use crate::assign::Assigner;
-use crate::config::{Assign, Config, Layer, Lighting};
+use crate::config::{Assign, Case, Config, Layer, Lighting, Test};
 use crate::output::write_whole;
 use crate::replay::bench::{AssignBench, BenchRow, bench_assign};
 use crate::replay::{Inputs, Watch};
@@ -13,7 +13,7 @@ use std::path::PathBuf;
 /// What to measure.
 #[derive(Debug, Subcommand)]
 pub enum Bench {
-    /// Time light assignment by every way, in turn, and write a CSV
+    /// Time light assignment by every way with every test, in turn, and write a CSV
     Assign(Box<Args>),
 }
 
@@ -37,6 +37,10 @@ pub struct Args {
     /// Ways of assignment, with commas between: brute, hierarchy, scatter.
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "brute,hierarchy,scatter")]
     assign: Vec<Assign>,
+
+    /// Tests of light against cluster, as in `replay`, with commas between; each is timed by every way.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "auto")]
+    test: Vec<Test>,
 
     /// How often each is timed; the least time counts.
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..))]
@@ -74,7 +78,8 @@ pub fn run(bench: Bench, console: &Console) -> Result<()> {
     let bench = args.bench()?;
     let interrupt = Interrupt::install()?;
     let inputs = Inputs::load(&config)?;
-    let cases = bench.lights.len() * bench.frames.len() * config.methods.len() * bench.assigners.len();
+    let ways = bench.assigners.len() * bench.tests.len();
+    let cases = bench.lights.len() * bench.frames.len() * config.methods.len() * ways;
     let progress = console.progress(cases as u64 * (u64::from(bench.repeats) + 1));
     let watch = Watch { interrupt: interrupt.flag(), progress: &|| progress.advance() };
     let mut rows: Vec<BenchRow> = vec![];
@@ -89,9 +94,9 @@ pub fn run(bench: Bench, console: &Console) -> Result<()> {
         csv.flush()
     })?;
     for row in &rows {
-        let BenchRow { lights, method, assign, frame, gpu_ms, light_indices, .. } = row;
+        let BenchRow { lights, method, assign, test, frame, gpu_ms, light_indices, .. } = row;
         console.note(&format!(
-            "{lights} lights, {method}, frame {frame}, {assign}: {gpu_ms:.3} ms, {light_indices} light indices"
+            "{lights} lights, {method}, frame {frame}, {assign}, {test}: {gpu_ms:.3} ms, {light_indices} light indices"
         ));
     }
     console.note(&format!("results are in {}", args.out.display()));
@@ -108,11 +113,14 @@ impl Args {
             recording: Some(self.recording.clone()),
             methods: Some(methods),
             resolution: Some(crate::config::parse_resolution(&self.resolution).map_err(input)?),
+            test: Some(self.test.clone()),
             device: self.device.clone(),
             shaders: self.shaders.clone(),
             ..Layer::default()
         };
-        Config::resolve(None, layer)
+        let config = Config::resolve(None, layer)?;
+        config.cases().iter().try_for_each(Case::check).map_err(input)?;
+        Ok(config)
     }
 
     fn bench(&self) -> Result<AssignBench> {
@@ -123,6 +131,7 @@ impl Args {
         };
         Ok(AssignBench {
             assigners: self.assign.iter().map(fixed).collect::<Result<Vec<Assigner>>>()?,
+            tests: self.test.clone(),
             lights: self.lights.iter().map(|&count| lighting(count)).collect(),
             frames: self.frames.clone(),
             repeats: self.repeats,

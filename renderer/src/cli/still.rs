@@ -40,6 +40,7 @@ pub fn run(args: Args, console: &Console) -> Result<()> {
     let show = Show::from_items(&args.show)?;
     let config = configuration(&args)?;
     let run = planned_runs(&config).remove(0);
+    run.check()?;
     let inputs = Inputs::load(&config)?;
     prepare_output(&config.out)?;
     let still = render(&config, &inputs, &run, args.view.as_deref(), &show)?;
@@ -52,7 +53,7 @@ pub fn run(args: Args, console: &Console) -> Result<()> {
 
 /// One frame, one method, one lighting, nothing timed.
 fn configuration(args: &Args) -> Result<Config> {
-    let Layer { frames, runs, exr, trace, scopes, methods, lights, .. } = &args.layer;
+    let Layer { frames, runs, exr, trace, scopes, methods, lights, test, .. } = &args.layer;
     let of_replay = [
         ("frames", frames.is_some()),
         ("runs", runs.is_some()),
@@ -64,14 +65,17 @@ fn configuration(args: &Args) -> Result<Config> {
         return Err(Error::input(format!("a still is one frame that is not timed: leave --{flag} out")));
     }
     let several = |count: Option<usize>| count.is_some_and(|count| count > 1);
-    if several(methods.as_ref().map(Vec::len)) || several(lights.as_ref().map(Vec::len)) {
+    let axes = [methods.as_ref().map(Vec::len), lights.as_ref().map(Vec::len), test.as_ref().map(Vec::len)];
+    if axes.into_iter().any(several) {
         return Err(Error::input(
-            "a still shows one method under one lighting: give --method and --lights once",
+            "a still shows one method under one lighting with one test: give --method, --lights and --test once",
         ));
     }
     let mut config = Config::resolve(args.config.as_deref(), args.layer.clone())?;
     config.methods.truncate(1);
     config.lights.truncate(1);
+    config.assign.truncate(1);
+    config.test.truncate(1);
     config.frames = FrameRange { first: args.frame, end: args.frame.checked_add(1), step: 1 };
     config.exr = ExrFrames::List(vec![]);
     config.trace = ExrFrames::List(vec![]);

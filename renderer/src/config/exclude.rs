@@ -1,6 +1,6 @@
-//! Rules that leave combinations out of the product of scenes, lightings and methods.
+//! Rules that leave combinations out of the product of scenes, lightings, methods, ways of assignment and tests.
 
-use super::{Lighting, LightsFrom, SceneEntry};
+use super::{Case, Lighting, LightsFrom, SceneEntry};
 use crate::methods::MethodSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -30,7 +30,10 @@ pub enum Counts {
 
 /// Leaves out every run that matches all the fields given; a field that is left out matches everything.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "an object with any of scene, recording, lights and method")]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with any of scene, recording, lights, method, assign and test"
+)]
 pub struct Exclude {
     /// The scene as the configuration has it, or its file's name without extension; `*` stands for any text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -44,7 +47,16 @@ pub struct Exclude {
     /// The method's name; `*` stands for any text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub method: Option<Names>,
+    /// The way of assignment; `*` stands for any text.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub assign: Option<Names>,
+    /// The test of light against cluster, `auto` as what it is for the method; `*` stands for any text.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub test: Option<Names>,
 }
+
+/// Names of all fields.
+const FIELDS: [&str; 6] = ["scene", "recording", "lights", "method", "assign", "test"];
 
 impl Names {
     fn list(&self) -> &[String] {
@@ -82,22 +94,35 @@ fn matches(pattern: &str, name: &str) -> bool {
 
 impl Exclude {
     /// Whether a run is left out.
-    pub fn matches(&self, scene: &SceneEntry, lights: &LightsFrom, method: &MethodSpec) -> bool {
+    pub fn matches(&self, scene: &SceneEntry, case: &Case) -> bool {
+        // A method without clusters is under no way or test.
+        let clustered = case.method != MethodSpec::AllLights;
+        let way = |names: &Option<Names>, name: String| {
+            names.as_ref().is_none_or(|names| clustered && names.matches(&name))
+        };
         self.scene.as_ref().is_none_or(|names| names.matches_file(&scene.scene))
             && self.recording.as_ref().is_none_or(|names| names.matches_file(&scene.recording))
-            && self.lights.as_ref().is_none_or(|counts| match lights {
+            && self.lights.as_ref().is_none_or(|counts| match &case.lights {
                 LightsFrom::Rain(Lighting { count, .. }) => counts.list().contains(count),
                 LightsFrom::File(_) | LightsFrom::Scene => false,
             })
-            && self.method.as_ref().is_none_or(|names| names.matches(&method.to_string()))
+            && self.method.as_ref().is_none_or(|names| names.matches(&case.method.to_string()))
+            && way(&self.assign, case.assign.to_string())
+            && way(&self.test, case.test.to_string())
     }
 
     /// Refuses a rule that says nothing.
     pub(super) fn check(&self) -> Result<(), String> {
         if *self == Self::default() {
-            return Err("an empty rule leaves everything out: give scene, recording, lights or method".into());
+            return Err(format!("an empty rule leaves everything out: give any of {}", FIELDS.join(", ")));
         }
-        let names = [("scene", &self.scene), ("recording", &self.recording), ("method", &self.method)];
+        let names = [
+            ("scene", &self.scene),
+            ("recording", &self.recording),
+            ("method", &self.method),
+            ("assign", &self.assign),
+            ("test", &self.test),
+        ];
         let empty =
             names.iter().find(|(_, names)| names.as_ref().is_some_and(|names| names.list().is_empty()));
         let counts = self.lights.as_ref().is_some_and(|counts| counts.list().is_empty());
@@ -110,7 +135,7 @@ impl Exclude {
 }
 
 impl fmt::Display for Exclude {
-    /// Writes `scene=..,recording=..,lights=..,method=..` with `|` between alternatives.
+    /// Writes `scene=..,recording=..,lights=..,method=..,assign=..,test=..` with `|` between alternatives.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let names = |names: &Option<Names>| names.as_ref().map(|names| names.list().join("|"));
         let counts =
@@ -120,6 +145,8 @@ impl fmt::Display for Exclude {
             ("recording", names(&self.recording)),
             ("lights", self.lights.as_ref().map(counts)),
             ("method", names(&self.method)),
+            ("assign", names(&self.assign)),
+            ("test", names(&self.test)),
         ];
         let given: Vec<String> =
             fields.into_iter().filter_map(|(field, value)| Some(format!("{field}={}", value?))).collect();
@@ -141,13 +168,14 @@ impl FromStr for Exclude {
                 "scene" => rule.scene = names(),
                 "recording" => rule.recording = names(),
                 "method" => rule.method = names(),
+                "assign" => rule.assign = names(),
+                "test" => rule.test = names(),
                 "lights" => {
                     let counts = value.split('|').map(|count| count.trim().parse()).collect::<Result<_, _>>();
                     rule.lights = Some(Counts::Any(counts.map_err(|_| wrong())?));
                 }
                 field => {
-                    let known = ["scene", "recording", "lights", "method"];
-                    return Err(format!("`{field}` is no axis{}", super::nearest::hint(field, &known)));
+                    return Err(format!("`{field}` is no axis{}", super::nearest::hint(field, &FIELDS)));
                 }
             }
         }
@@ -158,6 +186,7 @@ impl FromStr for Exclude {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::config::Assign;
 
     #[test]
     fn stars_stand_for_any_text() {
@@ -182,20 +211,31 @@ mod tests {
             resolution: None,
             frames: None,
         };
-        let rain = |count| LightsFrom::Rain(Lighting::with_count(count));
-        let [indi, encl]: [MethodSpec; 2] =
-            ["indi-ortho-4", "encl-ortho-4"].map(|name| name.parse().unwrap());
-        assert!(rule.matches(&scene("street"), &rain(1000), &encl));
-        assert!(rule.matches(&scene("scenes/bistro.gltf"), &rain(1000), &encl));
-        assert!(!rule.matches(&scene("temple"), &rain(1000), &encl));
-        assert!(!rule.matches(&scene("street"), &rain(10), &encl));
-        assert!(!rule.matches(&scene("street"), &LightsFrom::Scene, &encl));
-        assert!(!rule.matches(&scene("street"), &rain(1000), &indi));
+        let case = |count, method: &str| Case {
+            lights: LightsFrom::Rain(Lighting::with_count(count)),
+            method: method.parse().unwrap(),
+            assign: Assign::Scatter,
+            test: "hs+sat-n".parse().unwrap(),
+        };
+        assert!(rule.matches(&scene("street"), &case(1000, "encl-ortho-4")));
+        assert!(rule.matches(&scene("scenes/bistro.gltf"), &case(1000, "encl-ortho-4")));
+        assert!(!rule.matches(&scene("temple"), &case(1000, "encl-ortho-4")));
+        assert!(!rule.matches(&scene("street"), &case(10, "encl-ortho-4")));
+        let lit = Case { lights: LightsFrom::Scene, ..case(1000, "encl-ortho-4") };
+        assert!(!rule.matches(&scene("street"), &lit));
+        assert!(!rule.matches(&scene("street"), &case(1000, "indi-ortho-4")));
+
+        let ways = |text: &str, method: &str| {
+            text.parse::<Exclude>().unwrap().matches(&scene("street"), &case(1, method))
+        };
+        assert!(ways("assign=scatter|auto,test=*sat-*", "encl-ortho-4"));
+        assert!(!ways("assign=brute", "encl-ortho-4") && !ways("test=exact", "encl-ortho-4"));
+        assert!(!ways("test=*", "all-lights") && !ways("assign=*", "all-lights"), "it has neither");
     }
 
     #[test]
     fn rules_are_read_as_documented() {
-        let text = "scene=a|b,recording=*-vive,lights=1|2,method=encl-*";
+        let text = "scene=a|b,recording=*-vive,lights=1|2,method=encl-*,assign=brute,test=hs+sat-n|exact";
         assert_eq!(text.parse::<Exclude>().unwrap().to_string(), text);
         for wrong in ["", "scene", "scenes=a", "lights=x", "lights="] {
             assert!(wrong.parse::<Exclude>().is_err(), "{wrong}");

@@ -3,7 +3,7 @@
 use super::values::{self, de};
 use super::{
     Assign, Config, DisplacedVolume, Exclude, ExrFrames, FrameRange, Lighting, Marking, SceneEntry, Scopes,
-    scenes, schema,
+    Test, scenes, schema,
 };
 use crate::lights::Attenuation;
 use crate::methods::MethodSpec;
@@ -44,7 +44,7 @@ pub struct Layer {
     #[schemars(with = "Option<Vec<scenes::RawSceneEntry>>", length(min = 1))]
     pub scenes: Option<Vec<SceneEntry>>,
 
-    /// What to leave out of the product of scenes, lightings and methods, such as
+    /// What to leave out of the product of scenes, lightings, methods, ways of assignment and tests, such as
     /// `recording=*-vive,lights=1000|10000,method=indi-persp-16`; the flag is repeated for several rules.
     #[arg(long, value_name = "AXIS=NAME[|NAME],..")]
     pub exclude: Option<Vec<Exclude>>,
@@ -116,9 +116,21 @@ pub struct Layer {
     #[arg(long, value_enum)]
     pub marking: Option<Marking>,
 
-    /// How the light lists are built; every way gives the same ones.
-    #[arg(long, value_enum)]
-    pub assign: Option<Assign>,
+    /// How the light lists are built; every way gives the same ones. Of several, with commas between, each is a run of
+    /// every method.
+    #[arg(long, value_enum, value_name = "LIST", value_delimiter = ',')]
+    #[serde(default, deserialize_with = "de::ways")]
+    #[schemars(schema_with = "schema::assign")]
+    pub assign: Option<Vec<Assign>>,
+
+    /// What decides whether a light meets a cluster: `hs` (half spaces), `sat-` with letters (no separating axis among
+    /// e: edges, n: to the nearest vertex, p: normals, v: to all vertices), `hs+sat-n` and the like, `exact`, `box`
+    /// (orthographic clusters only), or `auto`: hs in perspective grids, box in orthographic ones. Of several, with
+    /// commas between, each is a run of every method.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::test)]
+    #[serde(default, deserialize_with = "de::ways")]
+    #[schemars(schema_with = "schema::test")]
+    pub test: Option<Vec<Test>>,
 
     /// Which frustum sizes the clusters of Displ.
     #[arg(long, value_enum)]
@@ -179,6 +191,7 @@ impl Config {
         set(&mut self.attenuation, layer.attenuation);
         set(&mut self.marking, layer.marking);
         set(&mut self.assign, layer.assign);
+        set(&mut self.test, layer.test);
         set(&mut self.displaced_volume, layer.displaced_volume);
         set(&mut self.out, layer.out);
         set(&mut self.visible_cluster_capacity, layer.visible_cluster_capacity);

@@ -3,6 +3,7 @@
 //! Three layers, each over the one before: the built-in defaults, a JSON file, the flags. One declaration,
 //! [`Layer`], is the file's format, its schema and the flags at once.
 
+mod cases;
 mod exclude;
 mod file;
 mod frames;
@@ -15,6 +16,7 @@ mod values;
 #[cfg(test)]
 mod tests;
 
+pub use cases::{Case, Test};
 pub use exclude::{Counts, Exclude, Names};
 pub use layer::Layer;
 pub use schema::json_schema;
@@ -64,8 +66,7 @@ pub enum DisplacedVolume {
 }
 
 /// How the light lists are built; every way gives the same ones.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Assign {
     /// Every visible cluster against every light.
     Brute,
@@ -157,7 +158,7 @@ pub struct Config {
     /// Several scenes, each with its recording, instead of `scene` and `recording`; empty for that one.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub scenes: Vec<SceneEntry>,
-    /// What is left out of the product of scenes, lightings and methods.
+    /// What is left out of the product of scenes, lightings, methods, ways of assignment and tests.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub exclude: Vec<Exclude>,
     /// Methods, each a run.
@@ -186,8 +187,12 @@ pub struct Config {
     pub attenuation: Attenuation,
     /// Marking strategy.
     pub marking: Marking,
-    /// How the light lists are built.
-    pub assign: Assign,
+    /// How the light lists are built, each a run of every method.
+    #[serde(serialize_with = "values::ser::one_or_several")]
+    pub assign: Vec<Assign>,
+    /// What decides who is on them, each a run of every method.
+    #[serde(serialize_with = "values::ser::one_or_several")]
+    pub test: Vec<Test>,
     /// Volume that sizes Displ.
     pub displaced_volume: DisplacedVolume,
     /// Output directory.
@@ -226,7 +231,8 @@ impl Default for Config {
             trace: ExrFrames::List(Vec::new()),
             attenuation: Attenuation::PhyRed2,
             marking: Marking::Depth,
-            assign: Assign::Brute,
+            assign: vec![Assign::Brute],
+            test: vec![Test::Auto],
             displaced_volume: DisplacedVolume::View,
             out: "out".into(),
             visible_cluster_capacity: 1 << 14,
@@ -288,6 +294,8 @@ impl Config {
             rule.check().map_err(at("exclude"))?;
         }
         values::check_methods(self.methods.clone()).map_err(at("methods"))?;
+        values::check_ways(self.assign.clone()).map_err(at("assign"))?;
+        values::check_ways(self.test.clone()).map_err(at("test"))?;
         values::check_lights(self.lights.clone()).map_err(at("lights"))?;
         for lighting in &self.lights {
             lighting.check().map_err(at("lights"))?;
@@ -314,14 +322,9 @@ impl Config {
     /// Refuses rules that leave nothing out: most are misspelt.
     fn check_excludes(&self) -> Result<()> {
         let scenes = self.scene_entries();
-        let sources = self.lights_from();
-        let matched = |rule: &Exclude| {
-            scenes.iter().any(|scene| {
-                sources
-                    .iter()
-                    .any(|lights| self.methods.iter().any(|method| rule.matches(scene, lights, method)))
-            })
-        };
+        let cases = self.cases();
+        let matched =
+            |rule: &Exclude| scenes.iter().any(|scene| cases.iter().any(|case| rule.matches(scene, case)));
         match self.exclude.iter().find(|rule| !matched(rule)) {
             Some(rule) => Err(Error::Input(format!(
                 "exclude: the rule {rule} matches no run: mend its names, or leave it out"

@@ -1,7 +1,8 @@
 //! The JSON Schema of configuration files, generated from [`Layer`].
 
 use super::values::{ATTENUATIONS, MAX_RESOLUTION};
-use super::{Config, Layer};
+use super::{Assign, Config, Layer};
+use clap::ValueEnum;
 use schemars::{Schema, SchemaGenerator, json_schema};
 use serde_json::Value;
 
@@ -64,6 +65,30 @@ pub(super) fn exr(_: &mut SchemaGenerator) -> Schema {
             { "enum": ["all", "none", null] }
         ]
     })
+}
+
+/// A name, or a list of different names.
+fn one_or_several(name: &Schema) -> Schema {
+    json_schema!({
+        "anyOf": [
+            name,
+            { "type": "array", "items": name, "minItems": 1, "uniqueItems": true },
+            { "type": "null" }
+        ]
+    })
+}
+
+pub(super) fn assign(_: &mut SchemaGenerator) -> Schema {
+    let names: Vec<String> = Assign::value_variants().iter().map(ToString::to_string).collect();
+    one_or_several(&json_schema!({ "enum": names }))
+}
+
+pub(super) fn test(_: &mut SchemaGenerator) -> Schema {
+    one_or_several(&json_schema!({
+        "type": "string",
+        "pattern": r"^(auto|box|exact|hs|(hs\+)?sat-[enpv]{1,4})$",
+        "examples": ["auto", "hs", "hs+sat-n", "hs+sat-epv", "exact", "box"]
+    }))
 }
 
 pub(super) fn attenuation(_: &mut SchemaGenerator) -> Schema {

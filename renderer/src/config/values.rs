@@ -1,13 +1,14 @@
 //! Single values: how flags spell them, what is in range, how JSON carries them. Each rule is stated once
 //! here and serves flags and files alike.
 
-use super::{Lighting, LightsFrom, SceneEntry, scenes};
+use super::{Lighting, LightsFrom, SceneEntry, Test, scenes};
 use crate::lights::Attenuation;
 use crate::methods::MethodSpec;
 use schemars::JsonSchema;
-use serde::de::Error as _;
+use serde::de::{Error as _, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serializer};
 use std::fmt;
+use std::marker::PhantomData;
 use std::path::Path;
 use std::str::FromStr;
 
@@ -30,6 +31,11 @@ pub(super) const ATTENUATIONS: [Attenuation; 9] = [
 /// Reads a method's name.
 pub(super) fn method(text: &str) -> Result<MethodSpec, String> {
     text.parse::<MethodSpec>().map_err(|error| error.to_string())
+}
+
+/// Reads the name of a test of sphere against cluster.
+pub(super) fn test(text: &str) -> Result<Test, String> {
+    text.parse()
 }
 
 /// Reads an attenuation function's name.
@@ -99,6 +105,17 @@ pub(super) fn check_lights(lights: Vec<Lighting>) -> Result<Vec<Lighting>, Strin
     match first_twin(&lights) {
         Some(twin) => Err(format!("lights {twin} are given twice")),
         None => Ok(lights),
+    }
+}
+
+/// Refuses an empty list of ways or tests, and one that names one twice.
+pub(super) fn check_ways<T: PartialEq + fmt::Display>(ways: Vec<T>) -> Result<Vec<T>, String> {
+    if ways.is_empty() {
+        return Err("an empty list: name at least one".into());
+    }
+    match first_twin(&ways) {
+        Some(twin) => Err(format!("{twin} is named twice")),
+        None => Ok(ways),
     }
 }
 
@@ -235,6 +252,46 @@ impl<'de> Deserialize<'de> for MethodText {
     }
 }
 
+/// A name of something in JSON.
+struct Named<T>(T);
+
+impl<'de, T: FromStr<Err = String>> Deserialize<'de> for Named<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        String::deserialize(deserializer)?.parse().map(Self).map_err(D::Error::custom)
+    }
+}
+
+/// A name, or a list of names.
+struct OneOrSeveral<T>(Vec<T>);
+
+impl<'de, T: FromStr<Err = String>> Deserialize<'de> for OneOrSeveral<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(NamesVisitor(PhantomData)).map(Self)
+    }
+}
+
+struct NamesVisitor<T>(PhantomData<T>);
+
+impl<'de, T: FromStr<Err = String>> Visitor<'de> for NamesVisitor<T> {
+    type Value = Vec<T>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a name or a list of names")
+    }
+
+    fn visit_str<E: serde::de::Error>(self, name: &str) -> Result<Vec<T>, E> {
+        name.parse().map(|item| vec![item]).map_err(E::custom)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut names: A) -> Result<Vec<T>, A::Error> {
+        let mut items = Vec::new();
+        while let Some(Named(item)) = names.next_element()? {
+            items.push(item);
+        }
+        Ok(items)
+    }
+}
+
 /// Deserializes an optional field and passes it through its check.
 fn checked<'de, D, T, U>(
     deserializer: D,
@@ -257,6 +314,14 @@ pub(super) mod de {
 
     pub fn methods<'de, D: Deserializer<'de>>(d: D) -> Result<Option<Vec<MethodSpec>>, D::Error> {
         checked(d, |list: Vec<MethodText>| check_methods(list.into_iter().map(|method| method.0).collect()))
+    }
+
+    pub fn ways<'de, D, T>(d: D) -> Result<Option<Vec<T>>, D::Error>
+    where
+        D: Deserializer<'de>,
+        T: FromStr<Err = String> + PartialEq + fmt::Display,
+    {
+        checked(d, |OneOrSeveral(ways): OneOrSeveral<T>| check_ways(ways))
     }
 
     pub fn lights<'de, D: Deserializer<'de>>(d: D) -> Result<Option<Vec<Lighting>>, D::Error> {
@@ -290,6 +355,14 @@ pub(super) mod ser {
 
     pub fn methods<S: Serializer>(methods: &[MethodSpec], serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(methods.iter().map(ToString::to_string))
+    }
+
+    /// One as its name, several as a list of names.
+    pub fn one_or_several<S: Serializer, T: ToString>(items: &[T], serializer: S) -> Result<S::Ok, S::Error> {
+        match items {
+            [one] => serializer.serialize_str(&one.to_string()),
+            _ => serializer.collect_seq(items.iter().map(ToString::to_string)),
+        }
     }
 
     pub fn attenuation<S: Serializer>(attenuation: &Attenuation, serializer: S) -> Result<S::Ok, S::Error> {

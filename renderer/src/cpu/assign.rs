@@ -78,7 +78,7 @@ mod tests {
     #[test]
     fn lists_follow_the_visible_clusters_with_ascending_lights() {
         let lights = [light(3.5, 0.25), light(0.5, 1.0), light(2.25, 0.5), light(9.0, 1.0)];
-        for test in [SphereTest::Box, SphereTest::HalfSpace] {
+        for test in [SphereTest::Box, SphereTest::HALF_SPACES, SphereTest::Exact] {
             let lists = assign(&grid(), &[0, 1, 3], &lights, test, 1e-4);
             assert_eq!(lists.offsets, [0, 1, 3, 4]);
             assert_eq!([lists.list(0), lists.list(1), lists.list(2)], [&[1][..], &[1, 2], &[0]]);
@@ -98,6 +98,6 @@ mod tests {
     fn no_cluster_and_no_light_make_no_list() {
         let lists = assign(&grid(), &[], &[light(0.0, 1.0)], SphereTest::Box, 1e-4);
         assert_eq!((lists.offsets, lists.indices), (vec![0], vec![]));
-        assert_eq!(assign(&grid(), &[2], &[], SphereTest::HalfSpace, 1e-4).offsets, [0, 0]);
+        assert_eq!(assign(&grid(), &[2], &[], SphereTest::HALF_SPACES, 1e-4).offsets, [0, 0]);
     }
 }

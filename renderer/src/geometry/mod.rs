@@ -12,8 +12,10 @@ mod displaced;
 mod enclosing;
 mod frustum;
 mod grid;
+mod piece;
 mod plan;
 mod sphere;
+mod sphere_test;
 
 #[cfg(test)]
 mod properties;
@@ -24,4 +26,5 @@ pub use enclosing::{Enclosing, enclosing};
 pub use frustum::Frustum;
 pub use grid::{ClusterSpace, Grid};
 pub use plan::plan;
-pub use sphere::{CellTest, Plane, SphereTest, axis_box, half_space};
+pub use sphere::{CellTest, Plane, axis_box, half_space};
+pub use sphere_test::{Candidates, SphereTest};

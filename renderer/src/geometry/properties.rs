@@ -1,6 +1,6 @@
 //! What must hold for any views: asymmetric, canted, one to four of them.
 
-use super::{ClusterSpace, Frustum, Grid, axis_box, half_space, plan};
+use super::{CellTest, ClusterSpace, Frustum, Grid, SphereTest, axis_box, half_space, plan};
 use crate::config::DisplacedVolume;
 use crate::methods::{Sharing, Space};
 use crate::views::{Pose, View};
@@ -59,6 +59,40 @@ fn point_in(view: &View, parts: DVec3) -> DVec3 {
     let tangents = view.frustum.size() * parts.truncate();
     let distance = -z1 * (z0 / z1).powf(parts.z);
     view.pose.transform_point(DVec3::new(x0 + tangents.x, y0 + tangents.y, -1.0) * distance)
+}
+
+/// Each part of a test alone, and all together.
+fn tests() -> [SphereTest; 7] {
+    ["hs", "sat-e", "sat-n", "sat-p", "sat-v", "hs+sat-enpv", "exact"].map(|name| name.parse().unwrap())
+}
+
+/// Distance of a point from a cluster: 0 inside its planes, else that of the nearest of the twelve triangles of its surface.
+fn surface_distance(grid: &Grid, cell: [u32; 3], point: DVec3) -> f64 {
+    if half_space(grid, cell, point, 0.0) >= 0.0 {
+        return 0.0;
+    }
+    let corners = grid.cell_corners(cell);
+    let faces = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
+    let triangles = faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    let distances =
+        triangles.map(|triangle| triangle_distance(triangle.map(|corner| corners[corner]), point));
+    distances.fold(f64::INFINITY, f64::min)
+}
+
+/// Distance of a point from a triangle: from its plane where the foot lies inside, else from the nearest edge.
+fn triangle_distance([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
+    let normal = (b - a).cross(c - a).normalize();
+    let foot = point - normal * normal.dot(point - a);
+    let inside =
+        [[a, b], [b, c], [c, a]].iter().all(|&[from, to]| normal.dot((to - from).cross(foot - from)) >= 0.0);
+    if inside {
+        return point.distance(foot);
+    }
+    let segment = |from: DVec3, to: DVec3| {
+        let along = (to - from).dot(point - from) / (to - from).length_squared();
+        point.distance(from + (to - from) * along.clamp(0.0, 1.0))
+    };
+    segment(a, b).min(segment(b, c)).min(segment(c, a))
 }
 
 /// Each view with the grid that serves it.
@@ -143,6 +177,31 @@ proptest! {
         let slack = 1e-9 * (1.0 + point.length());
         prop_assert!(half_space(&grid, cell, center, radius) >= -slack);
         prop_assert!(axis_box(&grid, cell, center, radius) >= -slack);
+        for test in tests() {
+            prop_assert!(CellTest::new(test, &grid, cell).margin(center, radius) >= -slack, "{test}");
+        }
+    }
+
+    #[test]
+    fn exact_is_the_distance_and_no_test_accepts_less(
+        (views, space, sharing) in (views(), space(), sharing()),
+        (in_view, in_cell, towards) in (parts(), parts(), parts()), radius in 0.01..30.0f64, reach in 0.0..4.0f64,
+    ) {
+        let grid = plan(space, sharing, &views, RESOLUTION, DisplacedVolume::View).unwrap()[0];
+        let cell = grid.cluster_of(point_in(&views[0], in_view)).unwrap();
+        let direction = (towards - 0.5).normalize_or(DVec3::X);
+        let point = grid.point_at(DVec3::from_array(cell.map(f64::from)) + in_cell);
+        let center = point + direction * radius * reach;
+        let margin = |test| CellTest::new(test, &grid, cell).margin(center, radius);
+        let slack = 1e-8 * (1.0 + center.length());
+        let exact = radius - surface_distance(&grid, cell, center);
+        prop_assert!((margin(SphereTest::Exact) - exact).abs() < slack, "{} {exact}", margin(SphereTest::Exact));
+        for test in tests() {
+            prop_assert!(exact <= slack || margin(test) > -slack, "{test} loses a sphere");
+        }
+        // Half spaces enclose what any test with normals accepts.
+        let normals = margin("sat-p".parse().unwrap());
+        prop_assert!(normals <= margin(SphereTest::HALF_SPACES) + slack);
     }
 
     #[test]

@@ -3,19 +3,9 @@
 //! Tests answer with a signed margin in metres: at least 0 means that they meet, and its size tells how close
 //! the answer was, so that a comparison with f32 results can leave borderline pairs out.
 
-use super::{ClusterSpace, Frustum, Grid};
+use super::piece::FrustumPiece;
+use super::{Candidates, ClusterSpace, Frustum, Grid, SphereTest};
 use glam::DVec3;
-
-/// Which test decides whether a sphere meets a cluster.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SphereTest {
-    /// HS: the centre lies inside the cluster's six planes, each moved out by the radius (Gelderen section
-    /// 3.3). Conservative.
-    HalfSpace,
-    /// Nearest point of the cluster's axis-aligned bounds: exact for orthographic grids, conservative
-    /// otherwise.
-    Box,
-}
 
 /// A plane by its unit normal, which points inwards, and its offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,40 +56,100 @@ impl Grid {
 
 /// A cluster made ready to be tested against many spheres.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum CellTest {
-    /// [`SphereTest::HalfSpace`], by the cluster's planes.
-    HalfSpace([Plane; 6]),
-    /// [`SphereTest::Box`], by its lowest and highest corner.
-    Box(DVec3, DVec3),
+pub struct CellTest {
+    test: SphereTest,
+    planes: [Plane; 6],
+    corners: [DVec3; 8],
+    /// In perspective grids.
+    piece: Option<FrustumPiece>,
 }
 
 impl CellTest {
     /// Prepares the cluster `cell` of `grid`.
     pub fn new(test: SphereTest, grid: &Grid, cell: [u32; 3]) -> Self {
-        match test {
-            SphereTest::HalfSpace => Self::HalfSpace(grid.cell_planes(cell)),
-            SphereTest::Box => {
-                let (low, high) = grid.cell_bounds(cell);
-                Self::Box(low, high)
+        let corners = grid.cell_corners(cell);
+        let piece = match grid.space {
+            ClusterSpace::Perspective { .. } => Some(FrustumPiece::new(&corners)),
+            ClusterSpace::Orthographic { .. } => None,
+        };
+        Self { test, planes: grid.cell_planes(cell), corners, piece }
+    }
+
+    /// Signed margin in metres: at least 0 where the sphere meets the cluster, by this test. Its size is how far the
+    /// sphere or the corners would have to move for another answer, at least. `center` in clustering space.
+    pub fn margin(&self, center: DVec3, radius: f64) -> f64 {
+        match (self.test, &self.piece) {
+            (SphereTest::Separating(candidates), _) => self.unseparated(candidates, center, radius),
+            (SphereTest::Exact, Some(piece)) => radius - piece.distance(center),
+            (SphereTest::Exact, None) | (SphereTest::Box, _) => {
+                let low = self.corners.into_iter().reduce(DVec3::min).unwrap_or(center);
+                let high = self.corners.into_iter().reduce(DVec3::max).unwrap_or(center);
+                radius - center.distance(center.clamp(low, high))
             }
         }
     }
 
-    /// Signed margin in metres: at least 0 where the sphere meets the cluster. `center` in clustering space.
-    pub fn margin(&self, center: DVec3, radius: f64) -> f64 {
-        match self {
-            Self::HalfSpace(planes) => {
-                let inside = planes.iter().map(|plane| plane.distance(center)).fold(f64::INFINITY, f64::min);
-                inside + radius
-            }
-            Self::Box(low, high) => radius - center.distance(center.clamp(*low, *high)),
+    /// Least margin of all that might separate.
+    fn unseparated(&self, candidates: Candidates, center: DVec3, radius: f64) -> f64 {
+        let mut least = f64::INFINITY;
+        if candidates.contain(Candidates::HALF_SPACES) {
+            let inside = self.planes.iter().map(|plane| plane.distance(center) + radius);
+            least = inside.fold(least, f64::min);
         }
+        if candidates.contain(Candidates::NORMALS) {
+            let normals = self.planes.iter().map(|plane| radius - self.gap(plane.normal, center));
+            least = normals.fold(least, f64::min);
+        }
+        if candidates.contain(Candidates::EDGES) {
+            let edges = EDGES.iter().map(|&[from, to]| (self.corners[to] - self.corners[from]).normalize());
+            least = edges.map(|edge| radius - self.gap(edge, center)).fold(least, f64::min);
+        }
+        if candidates.contain(Candidates::VERTICES) {
+            let vertices = self.corners.iter().map(|&corner| self.vertex_margin(corner, center, radius));
+            least = vertices.fold(least, f64::min);
+        }
+        if candidates.contain(Candidates::NEAREST_VERTEX) {
+            least = least.min(self.nearest_vertex_margin(center, radius));
+        }
+        least
+    }
+
+    /// How far the corners' projections to a unit axis lie apart from the centre's, metres; below 0 where they enclose it.
+    fn gap(&self, axis: DVec3, center: DVec3) -> f64 {
+        let projected = self.corners.map(|corner| axis.dot(corner - center));
+        let low = projected.into_iter().fold(f64::INFINITY, f64::min);
+        let high = projected.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        low.max(-high)
+    }
+
+    /// Margin of the axis from the centre to a corner. The nearer the corner, the more does the axis turn when it moves.
+    fn vertex_margin(&self, corner: DVec3, center: DVec3, radius: f64) -> f64 {
+        let Some(axis) = (corner - center).try_normalize() else { return radius };
+        let farthest = self.corners.iter().map(|other| other.distance(center)).fold(0.0, f64::max);
+        (radius - self.gap(axis, center)) / (1.0 + farthest / corner.distance(center))
+    }
+
+    /// Margin of the axis to the nearest corner; corners about as near take its place when they move.
+    fn nearest_vertex_margin(&self, center: DVec3, radius: f64) -> f64 {
+        let mut corners: Vec<(f64, f64)> = self
+            .corners
+            .iter()
+            .map(|&corner| (corner.distance(center), self.vertex_margin(corner, center, radius)))
+            .collect();
+        corners.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (nearest, margin) = corners[0];
+        let others = corners.iter().filter(|(_, other)| (*other < 0.0) != (margin < 0.0));
+        let turn = others.map(|(distance, _)| (distance - nearest) / 2.0).fold(f64::INFINITY, f64::min);
+        margin.abs().min(turn).copysign(margin)
     }
 }
 
-/// Margin of [`SphereTest::HalfSpace`] between a cluster and a sphere in clustering space, metres.
+/// Edges of a cluster that differ in direction, by the corners they join.
+const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 4], [1, 5], [2, 6], [3, 7]];
+
+/// Margin of [`SphereTest::HALF_SPACES`] between a cluster and a sphere in clustering space, metres.
 pub fn half_space(grid: &Grid, cell: [u32; 3], center: DVec3, radius: f64) -> f64 {
-    CellTest::new(SphereTest::HalfSpace, grid, cell).margin(center, radius)
+    CellTest::new(SphereTest::HALF_SPACES, grid, cell).margin(center, radius)
 }
 
 /// Margin of [`SphereTest::Box`] between a cluster and a sphere in clustering space, metres.

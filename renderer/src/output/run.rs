@@ -8,7 +8,7 @@ use super::stages::StageMinima;
 use super::summary::Summary;
 use super::tables;
 use super::trace;
-use crate::config::{Config, Lighting, LightsFrom};
+use crate::config::{Assign, Case, Config, Lighting, LightsFrom, Test};
 use crate::measure::{FrameCounts, FrameTimes, FrameTrace, ViewPixels};
 use crate::methods::MethodSpec;
 use crate::{Error, Result};
@@ -18,31 +18,57 @@ use std::path::Path;
 /// By this file a run directory is known.
 pub(super) const MANIFEST: &str = "run.json";
 
-/// One run: a method under one lighting.
+/// One run: a method under one lighting, by one way of assignment with one test.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlannedRun {
     /// How lights are found.
     pub method: MethodSpec,
     /// Where lights come from.
     pub lights: LightsFrom,
+    /// How the light lists are built.
+    pub assign: Assign,
+    /// What decides who is on them: named, but for methods without clusters.
+    pub test: Test,
     /// Name of the lighting, for tables: its count, with its other fields where counts are equal.
     pub lighting: String,
-    /// Name of the run directory: the method, with the lighting behind it where there are several.
+    /// Name of the run directory: the method, and behind it the lighting, the way of assignment and the test, each
+    /// where there are several.
     pub name: String,
 }
 
-/// The runs a configuration asks for: every method under the first lighting, then under the next.
+impl PlannedRun {
+    /// Where it stands in the product of the axes.
+    pub fn case(&self) -> Case {
+        Case { lights: self.lights.clone(), method: self.method, assign: self.assign, test: self.test }
+    }
+
+    /// Refuses a test that cannot serve the method.
+    ///
+    /// # Errors
+    /// Names both.
+    pub fn check(&self) -> Result<()> {
+        self.case().check().map_err(Error::Input)
+    }
+}
+
+/// The runs a configuration asks for, in the order of [`Config::cases`].
 pub fn planned_runs(config: &Config) -> Vec<PlannedRun> {
     let sources = config.lights_from();
-    let mut runs = Vec::new();
-    for lights in &sources {
-        let lighting = lighting_name(lights, &sources);
-        for &method in &config.methods {
-            let name = if sources.len() > 1 { format!("{method}_{lighting}") } else { method.to_string() };
-            runs.push(PlannedRun { method, lights: lights.clone(), lighting: lighting.clone(), name });
-        }
-    }
-    runs
+    let planned = |case: Case| {
+        let lighting = lighting_name(&case.lights, &sources);
+        let name = run_name(config, &case, (sources.len() > 1).then_some(&lighting));
+        let Case { lights, method, assign, test } = case;
+        PlannedRun { method, lights, assign, test, lighting, name }
+    };
+    config.cases().into_iter().map(planned).collect()
+}
+
+fn run_name(config: &Config, case: &Case, lighting: Option<&String>) -> String {
+    let clustered = case.method != MethodSpec::AllLights;
+    let assign = (clustered && config.assign.len() > 1).then(|| case.assign.to_string());
+    let test = (clustered && config.test.len() > 1).then(|| case.test.to_string());
+    let parts = [Some(case.method.to_string()), lighting.cloned(), assign, test];
+    parts.into_iter().flatten().collect::<Vec<_>>().join("_")
 }
 
 /// What tells a lighting from the others.

@@ -1,5 +1,5 @@
-//! Light assignment alone, timed by every way in one process, in turn: what runs on the machine beside it slows all
-//! ways alike.
+//! Light assignment alone, timed by every way with every test in one process, in turn: what runs on the machine beside
+//! it slows all alike.
 
 use super::engine::{Engine, Mode};
 use super::plan::{FramePlan, plan_frames};
@@ -7,11 +7,12 @@ use super::session::Session;
 use super::{Inputs, Watch, temporal};
 use crate::Result;
 use crate::assign::Assigner;
-use crate::config::{Config, FrameRange, Lighting, LightsFrom};
+use crate::config::{Config, FrameRange, Lighting, LightsFrom, Test};
+use crate::geometry::SphereTest;
 use crate::gpu_interface::{ClusteringState, Counter};
 use crate::lights::PointLight;
 use crate::measure::Capacities;
-use crate::methods::{MethodSpec, Space};
+use crate::methods::MethodSpec;
 use crate::passes::readback;
 use crate::replay::counted::Counted;
 use serde::Serialize;
@@ -21,6 +22,8 @@ use serde::Serialize;
 pub struct AssignBench {
     /// Ways of assignment, all on each frame.
     pub assigners: Vec<Assigner>,
+    /// Tests of light against cluster, each by all ways.
+    pub tests: Vec<Test>,
     /// Lightings of the rain.
     pub lights: Vec<Lighting>,
     /// Frames of the recording.
@@ -38,8 +41,8 @@ pub struct BenchRow {
     pub method: String,
     /// The way: `brute`, `hierarchy` or `scatter`.
     pub assign: String,
-    /// The test of sphere against cluster: `hs` or `box`.
-    pub test: &'static str,
+    /// The test of light against cluster.
+    pub test: String,
     /// Frame of the recording.
     pub frame: u32,
     /// Of all clusterings.
@@ -100,9 +103,11 @@ impl Case<'_> {
     fn measure(&self, session: &mut Session, bench: &AssignBench, watch: &Watch) -> Result<Vec<BenchRow>> {
         let mut rows = vec![];
         let mut engines = vec![];
-        for &assigner in &bench.assigners {
-            rows.push(self.count(session, assigner)?);
-            engines.push(self.engine(session, (assigner, false))?);
+        for test in self.tests(bench) {
+            for &assigner in &bench.assigners {
+                rows.push(self.count(session, (assigner, test))?);
+                engines.push(self.engine(session, (assigner, test), false)?);
+            }
         }
         for _ in 0..=bench.repeats {
             // The first turn warms up, and counts as the others: it is never the least.
@@ -115,12 +120,28 @@ impl Case<'_> {
         Ok(rows)
     }
 
-    fn engine(&self, session: &mut Session, (assigner, counting): (Assigner, bool)) -> Result<Engine> {
+    /// What the tests are for the method, each once.
+    fn tests(&self, bench: &AssignBench) -> Vec<SphereTest> {
+        let mut tests = vec![];
+        for test in bench.tests.iter().map(|test| test.of(&self.method)) {
+            if !tests.contains(&test) {
+                tests.push(test);
+            }
+        }
+        tests
+    }
+
+    fn engine(
+        &self,
+        session: &mut Session,
+        (assigner, test): (Assigner, SphereTest),
+        counting: bool,
+    ) -> Result<Engine> {
         let capacities = Capacities {
             visible_clusters: self.config.visible_cluster_capacity,
             light_indices: self.config.light_index_capacity,
         };
-        let mode = Mode { lights: self.lights.len() as u32, capacities, assigner, counting };
+        let mode = Mode { lights: self.lights.len() as u32, capacities, assigner, test, counting };
         let mut engine =
             Engine::new(session, self.config, self.method, std::slice::from_ref(self.plan), mode)?;
         loop {
@@ -137,8 +158,8 @@ impl Case<'_> {
         session.slots[SLOT].wait()
     }
 
-    fn count(&self, session: &mut Session, assigner: Assigner) -> Result<BenchRow> {
-        let mut engine = self.engine(session, (assigner, true))?;
+    fn count(&self, session: &mut Session, (assigner, test): (Assigner, SphereTest)) -> Result<BenchRow> {
+        let mut engine = self.engine(session, (assigner, test), true)?;
         let states = engine.states(session, SLOT);
         let mut intersection_tests = 0;
         for (clustering, state) in states.iter().enumerate() {
@@ -151,10 +172,7 @@ impl Case<'_> {
             lights: self.lights.len() as u32,
             method: self.method.to_string(),
             assign: assigner.to_string(),
-            test: match self.method {
-                MethodSpec::Clustered { space: Space::Ortho { .. }, .. } => "box",
-                _ => "hs",
-            },
+            test: test.to_string(),
             frame: self.plan.frame,
             visible_clusters: sum(|state| state.visible_total),
             light_indices: sum(|state| state.index_total),

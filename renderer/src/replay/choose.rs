@@ -1,4 +1,4 @@
-//! Which way of assignment a run takes where the configuration leaves it to counts.
+//! Which way of assignment a run takes where that is left to counts.
 
 use super::engine::{Engine, Mode};
 use super::plan::FramePlan;
@@ -11,7 +11,7 @@ use crate::measure::Capacities;
 use crate::methods::MethodSpec;
 use crate::output::PlannedRun;
 
-/// What the configuration names, or else the cheapest by counts of the run's middle frame.
+/// What the run names, or else the cheapest by counts of the run's middle frame.
 pub fn assigner(
     config: &Config,
     inputs: &Inputs,
@@ -21,7 +21,7 @@ pub fn assigner(
     if run.method == MethodSpec::AllLights {
         return Ok(Assigner::Brute);
     }
-    match config.assign.fixed() {
+    match run.assign.fixed() {
         Some(assigner) => Ok(assigner),
         None => Ok(count_once(config, inputs, session, (run, plans))?.cheapest()),
     }
@@ -41,7 +41,8 @@ fn count_once(
         visible_clusters: config.visible_cluster_capacity,
         light_indices: config.light_index_capacity,
     };
-    let mode = Mode { lights, capacities, assigner: Assigner::Hierarchy, counting: false };
+    let test = run.test.of(&run.method);
+    let mode = Mode { lights, capacities, assigner: Assigner::Hierarchy, test, counting: false };
     let mut engine = Engine::new(session, config, run.method, std::slice::from_ref(plan), mode)?;
     temporal::warm_up(&mut engine, session, plan, &mut source)?;
     let states = engine.states(session, 0);

@@ -10,6 +10,7 @@ use crate::clustering::{
 };
 use crate::config::{Config, Marking, Scopes};
 use crate::frame::{self, Frame, SLOTS};
+use crate::geometry::SphereTest;
 use crate::gpu_interface::{ClusteringState, LightData};
 use crate::lights::PointLight;
 use crate::measure::{Capacities, GrowthEvent};
@@ -50,6 +51,8 @@ pub struct Mode {
     pub capacities: Capacities,
     /// How the lists are built.
     pub assigner: Assigner,
+    /// What decides who is on them.
+    pub test: SphereTest,
     /// Whether everything is counted: the atemporal run.
     pub counting: bool,
 }
@@ -61,6 +64,7 @@ pub fn variant(config: &Config, method: MethodSpec, mode: &Mode) -> Variant {
         samples: config.msaa,
         marking: config.marking,
         assigner: assigner(method, mode),
+        test: mode.test,
         attenuation: config.attenuation,
         counting: mode.counting,
     }

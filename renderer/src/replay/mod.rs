@@ -119,6 +119,7 @@ pub fn replay(
 ) -> Result<()> {
     // What can be refused without a device is refused first.
     for run in runs {
+        run.check()?;
         plan_frames(config, &inputs.recording, &run.method)?;
     }
     let mut player = Player::new(config, inputs)?;
@@ -173,7 +174,8 @@ fn count(
     let light_count = lights.at_frame(plans[0].frame).len() as u32;
     let names: Vec<String> = inputs.recording.view_names().into_iter().map(str::to_owned).collect();
     let (capacities, assigner) = (result.capacities, result.assigner);
-    let mode = Mode { lights: light_count, capacities, assigner, counting: true };
+    let test = run.test.of(&run.method);
+    let mode = Mode { lights: light_count, capacities, assigner, test, counting: true };
     let mut engine = Engine::new(session, config, run.method, plans, mode)?;
     for plan in plans {
         watch.check()?;
@@ -198,7 +200,8 @@ fn time(
     let mut lights = inputs.light_source(&run.lights)?;
     let light_count = lights.at_frame(plans[0].frame).len() as u32;
     let (capacities, assigner) = (result.capacities, result.assigner);
-    let mode = Mode { lights: light_count, capacities, assigner, counting: false };
+    let test = run.test.of(&run.method);
+    let mode = Mode { lights: light_count, capacities, assigner, test, counting: false };
     let mut engine = Engine::new(session, config, run.method, plans, mode)?;
     temporal::warm_up(&mut engine, session, &plans[0], &mut lights)?;
     let frames = plans.iter().map(|plan| plan.frame);

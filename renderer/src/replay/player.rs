@@ -49,8 +49,9 @@ impl<'a> Player<'a> {
         };
         for counting in [true, false] {
             // Where counts decide, brute force stands for all: which way it will be is not known yet.
-            let assigner = self.config.assign.fixed().unwrap_or(Assigner::Brute);
-            let mode = Mode { lights, capacities, assigner, counting };
+            let assigner = run.assign.fixed().unwrap_or(Assigner::Brute);
+            let test = run.test.of(&run.method);
+            let mode = Mode { lights, capacities, assigner, test, counting };
             Engine::check(&mut self.session, self.config, run.method, &plans, &mode)?;
         }
         Ok(())

@@ -183,8 +183,13 @@ impl Painter<'_> {
         };
         let plans = std::slice::from_ref(self.plan);
         // The picture is of the lists, which are the same however they are built.
-        let mode =
-            engine::Mode { lights: light_count, capacities, assigner: Assigner::Brute, counting: true };
+        let mode = engine::Mode {
+            lights: light_count,
+            capacities,
+            assigner: Assigner::Brute,
+            test: run.test.of(&run.method),
+            counting: true,
+        };
         let mut engine = Engine::new(session, self.config, run.method, plans, mode)?;
         let pipelines = session.store.debug(&engine::variant(self.config, run.method, &mode))?;
         let names: Vec<String> = self.inputs.recording.view_names().into_iter().map(str::to_owned).collect();

@@ -61,7 +61,7 @@ fn sha256(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::{ExrFrames, Lighting};
+    use crate::config::{Assign, ExrFrames, Lighting};
 
     #[test]
     fn it_changes_with_what_matters_alone() {
@@ -80,6 +80,8 @@ mod tests {
             Config { lights: vec![Lighting::with_count(7)], ..base.clone() },
             Config { exr: ExrFrames::All, ..base.clone() },
             Config { resolution: [320, 181], ..base.clone() },
+            Config { assign: vec![Assign::Scatter], ..base.clone() },
+            Config { test: vec!["exact".parse().unwrap()], ..base.clone() },
         ];
         for config in changed {
             assert_ne!(of("a", &config), same);

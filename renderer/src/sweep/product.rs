@@ -12,7 +12,7 @@ pub struct Part {
     pub directory: String,
     /// The configuration of this scene alone; [`Config::out`] is where its runs lie.
     pub config: Config,
-    /// Every method under the first lighting, then under the next, without what is excluded.
+    /// In the order of [`Config::cases`], without what is excluded.
     pub runs: Vec<PlannedRun>,
 }
 
@@ -31,6 +31,8 @@ impl Part {
     pub fn run_config(&self, run: &PlannedRun) -> Config {
         let mut config = self.config.clone();
         config.methods = vec![run.method];
+        config.assign = vec![run.assign];
+        config.test = vec![run.test];
         if let LightsFrom::Rain(lighting) = run.lights {
             config.lights = vec![lighting];
         }
@@ -41,7 +43,8 @@ impl Part {
 /// All runs that a configuration asks for, by scene.
 ///
 /// # Errors
-/// Two scenes would share a directory, an image is asked for of a frame that no scene renders, or no run is left.
+/// Two scenes would share a directory, an image is asked for of a frame that no scene renders, no run is left, or one
+/// has a test that cannot serve its method.
 pub fn parts(config: &Config) -> Result<Vec<Part>> {
     let entries = config.scene_entries();
     let directories = directories(&entries)?;
@@ -53,8 +56,8 @@ pub fn parts(config: &Config) -> Result<Vec<Part>> {
         parts.push(Part { directory, runs: planned_runs(&config), config });
     }
     for (part, entry) in parts.iter_mut().zip(&entries) {
-        part.runs
-            .retain(|run| !config.exclude.iter().any(|rule| rule.matches(entry, &run.lights, &run.method)));
+        part.runs.retain(|run| !config.exclude.iter().any(|rule| rule.matches(entry, &run.case())));
+        part.runs.iter().try_for_each(PlannedRun::check)?;
     }
     parts.retain(|part| !part.runs.is_empty());
     if parts.is_empty() {

@@ -79,7 +79,7 @@ impl RunSink for Files<'_> {
         if !result.traces.is_empty() {
             writer.write_trace(&result.traces)?;
         }
-        if self.part.config.assign == Assign::Auto {
+        if run.assign == Assign::Auto {
             self.reporter.note(&format!("{}: lights assigned by {}", run.name, result.assigner));
         }
         let finished = writer.finish(&manifest, &result.counts, &result.times);

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::config::Lighting;
-use crate::geometry::{ClusterSpace, Frustum, Grid, SphereTest};
+use crate::geometry::{ClusterSpace, Frustum, Grid};
 use crate::methods::{Sharing, Space};
 use crate::passes::{assign, depth, readback, scan};
 use crate::rain::{Rain, RainParameters};
@@ -70,8 +70,9 @@ impl Bench {
         let words = grid.cluster_count().div_ceil(32);
         let plan = FramePlan { frame: 0, views: vec![view()], grids: vec![grid] };
         let plans = std::slice::from_ref(&plan);
-        let assigner = config.assign.fixed().expect("tests name what they test");
-        let mode = Mode { lights: lights.len() as u32, capacities, assigner, counting: true };
+        let assigner = config.assign[0].fixed().expect("tests name what they test");
+        let test = config.test[0].of(&method);
+        let mode = Mode { lights: lights.len() as u32, capacities, assigner, test, counting: true };
         let mut engine = Engine::new(&mut session, config, method, plans, mode).unwrap();
         engine.write_host_data(&mut session, 0, &plan, lights);
         Self { engine, session, words }
@@ -116,6 +117,7 @@ impl Bench {
 }
 
 mod assign_equality;
+mod sphere_tests;
 
 /// A small deterministic generator; quality does not matter here.
 fn noise(seed: u64) -> impl FnMut() -> u32 {
@@ -195,53 +197,6 @@ fn list_offsets_equal_their_twin_at_odd_sizes() {
         assert_eq!(bench.download(|c| &c.buffers.list_offsets, twin.len()), twin, "{clusters} clusters");
         assert_eq!(Some(&bench.engine.states(&bench.session, 0)[0].index_total), twin.last());
     }
-}
-
-/// Lists of the device equal the twin's, but for pairs that the twin itself marks as too close to call.
-fn lists_equal_their_twin(method: MethodSpec, grid: Grid, test: SphereTest, light_count: u32) {
-    let clusters = grid.cluster_count();
-    let lights = lights(light_count);
-    let room = Capacities { visible_clusters: clusters as u32, light_indices: 4_000_000 };
-    let mut bench = Bench::new(method, grid, &lights, room);
-    let bits = random_bits(clusters, 2, 5);
-    bench.compact(&bits);
-    bench.run(|r, frame| {
-        crate::passes::lights::record(r, frame);
-        assign::transform_lights(r, frame, 0);
-        assign::count_lights(r, frame, 0);
-        scan::light_offsets(r, frame, 0);
-        assign::assign_lights(r, frame, 0);
-        readback::states(r, frame);
-    });
-    let state = bench.engine.states(&bench.session, 0)[0];
-    assert!(state.index_total > 1000, "the case assigns next to nothing");
-    let segments = clustering::segments(light_count).0 as usize;
-    let visible = cpu::compact(&fragments_of(&bits, clusters)).visible;
-    let offsets = bench.download(|c| &c.buffers.list_offsets, visible.len() * segments + 1);
-    let indices = bench.download(|c| &c.buffers.light_indices, state.index_total as usize);
-    let twin = cpu::assign(&grid, &visible, &lights, test, 1e-4);
-    for i in 0..visible.len() {
-        let list = &indices[offsets[i * segments] as usize..offsets[(i + 1) * segments] as usize];
-        assert!(list.is_sorted(), "a list is not in ascending order");
-        let sure = |lights: &[u32]| -> Vec<u32> {
-            lights.iter().copied().filter(|light| !twin.borderline[i].contains(light)).collect()
-        };
-        assert_eq!(sure(list), sure(twin.list(i)), "cluster {}", visible[i]);
-    }
-}
-
-#[test]
-fn perspective_lists_equal_their_twin() {
-    for count in [1, 255, 1000, 5001] {
-        // One light alone may meet nothing, so that the case asks for enough of it.
-        let count = count.max(500);
-        lists_equal_their_twin(PERSP, frustum_grid([13, 9, 21]), SphereTest::HalfSpace, count);
-    }
-}
-
-#[test]
-fn orthographic_lists_equal_their_twin() {
-    lists_equal_their_twin(ORTHO, box_grid([23, 17, 29]), SphereTest::Box, 4097);
 }
 
 /// Two stages of known work, one of compute and one of rasterisation, each repeated as often as said; milliseconds.

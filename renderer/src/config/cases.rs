@@ -1,0 +1,192 @@
+//! One point of the product of lightings, methods, ways of assignment and tests.
+
+use super::{Assign, Config, LightsFrom, nearest};
+use crate::geometry::SphereTest;
+use crate::methods::{MethodSpec, Space};
+use clap::ValueEnum;
+use std::fmt;
+use std::str::FromStr;
+
+/// What decides whether a light gets onto a cluster's list.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Test {
+    /// The thesis's own: half spaces in perspective grids, the box in orthographic ones.
+    Auto,
+    /// This one.
+    Named(SphereTest),
+}
+
+impl Test {
+    /// What it is for the clusters of `method`; a method without clusters asks nothing.
+    pub fn of(self, method: &MethodSpec) -> SphereTest {
+        match self {
+            Self::Named(test) => test,
+            Self::Auto if has_boxes(method) => SphereTest::Box,
+            Self::Auto => SphereTest::HALF_SPACES,
+        }
+    }
+}
+
+/// Whether the method's clusters are axis-aligned boxes.
+fn has_boxes(method: &MethodSpec) -> bool {
+    matches!(method, MethodSpec::Clustered { space: Space::Ortho { .. }, .. })
+}
+
+/// What one run is made of besides its scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Case {
+    /// Where lights come from.
+    pub lights: LightsFrom,
+    /// How lights are found.
+    pub method: MethodSpec,
+    /// How the light lists are built.
+    pub assign: Assign,
+    /// What decides who is on them: named, but for methods without clusters.
+    pub test: Test,
+}
+
+impl Case {
+    /// Refuses a test that cannot serve the method's clusters.
+    ///
+    /// # Errors
+    /// Names both.
+    pub fn check(&self) -> Result<(), String> {
+        if self.test == Test::Named(SphereTest::Box) && !has_boxes(&self.method) {
+            return Err(format!(
+                "test: the clusters of {} are no boxes: test them with `exact`, or exclude the run",
+                self.method
+            ));
+        }
+        Ok(())
+    }
+}
+
+impl Config {
+    /// Every method under the first lighting, then under the next; a method by every way of assignment, with every test.
+    /// What comes out the same is there once.
+    pub fn cases(&self) -> Vec<Case> {
+        let mut cases = Vec::new();
+        for lights in self.lights_from() {
+            for &method in &self.methods {
+                for (assign, test) in self.ways(&method) {
+                    cases.push(Case { lights: lights.clone(), method, assign, test });
+                }
+            }
+        }
+        cases
+    }
+
+    /// (Way of assignment, test) of every run of a method.
+    fn ways(&self, method: &MethodSpec) -> Vec<(Assign, Test)> {
+        if *method == MethodSpec::AllLights {
+            return self.assign.first().map(|&assign| (assign, Test::Auto)).into_iter().collect();
+        }
+        let mut ways = Vec::new();
+        for &assign in &self.assign {
+            for test in &self.test {
+                let way = (assign, Test::Named(test.of(method)));
+                if !ways.contains(&way) {
+                    ways.push(way);
+                }
+            }
+        }
+        ways
+    }
+}
+
+impl fmt::Display for Test {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Auto => f.write_str("auto"),
+            Self::Named(test) => test.fmt(f),
+        }
+    }
+}
+
+impl FromStr for Test {
+    type Err = String;
+
+    /// Reads what [`fmt::Display`] writes.
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "auto" { Ok(Self::Auto) } else { text.parse().map(Self::Named) }
+    }
+}
+
+impl fmt::Display for Assign {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Brute => "brute",
+            Self::Hierarchy => "hierarchy",
+            Self::Scatter => "scatter",
+            Self::Auto => "auto",
+        })
+    }
+}
+
+impl FromStr for Assign {
+    type Err = String;
+
+    /// Reads what [`fmt::Display`] writes.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let all = Self::value_variants();
+        all.iter().find(|way| way.to_string() == text).copied().ok_or_else(|| {
+            let names: Vec<String> = all.iter().map(ToString::to_string).collect();
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            format!("`{text}` is no way of assignment{}", nearest::hint(text, &names))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::Lighting;
+
+    fn config(methods: &[&str], tests: &[&str]) -> Config {
+        Config {
+            methods: methods.iter().map(|name| name.parse().unwrap()).collect(),
+            test: tests.iter().map(|name| name.parse().unwrap()).collect(),
+            ..Config::default()
+        }
+    }
+
+    fn ways(config: &Config) -> Vec<String> {
+        config.cases().iter().map(|case| format!("{} {} {}", case.method, case.assign, case.test)).collect()
+    }
+
+    #[test]
+    fn cases_are_the_product_with_equal_ones_once() {
+        let mut config = config(&["indi-persp-64", "indi-ortho-4"], &["auto", "hs", "exact"]);
+        let expected = [
+            "indi-persp-64 brute hs",
+            "indi-persp-64 brute exact",
+            "indi-ortho-4 brute box",
+            "indi-ortho-4 brute hs",
+            "indi-ortho-4 brute exact",
+        ];
+        assert_eq!(ways(&config), expected);
+        config.assign = vec![Assign::Scatter, Assign::Auto];
+        config.lights = vec![Lighting::with_count(1), Lighting::with_count(2)];
+        assert_eq!(config.cases().len(), 4 * expected.len());
+        assert_eq!(ways(&config)[1], "indi-persp-64 scatter exact");
+        assert_eq!(ways(&config)[2], "indi-persp-64 auto hs");
+    }
+
+    #[test]
+    fn a_method_without_clusters_knows_no_ways() {
+        let config = Config {
+            assign: vec![Assign::Hierarchy, Assign::Brute],
+            ..config(&["all-lights"], &["hs", "exact"])
+        };
+        assert_eq!(ways(&config), ["all-lights hierarchy auto"]);
+    }
+
+    #[test]
+    fn boxes_serve_boxes_alone() {
+        let refused = |method: &str| config(&[method], &["box"]).cases()[0].check().err();
+        assert_eq!(refused("encl-ortho-4"), None);
+        assert_eq!(refused("all-lights"), None);
+        assert!(refused("encl-persp-64").unwrap().contains("encl-persp-64 are no boxes"));
+        assert!(refused("indi-displ-64-32").is_some());
+    }
+}

@@ -1,0 +1,142 @@
+//! The tests of light against cluster on the device: equal to their CPU twins, and no light is ever lost.
+
+use super::*;
+use crate::config::Test;
+use crate::geometry::{CellTest, SphereTest};
+
+/// Each part of each test, alone and with others.
+const TESTS: [&str; 9] =
+    ["hs", "sat-e", "sat-n", "sat-p", "sat-v", "hs+sat-n", "sat-epv", "hs+sat-enpv", "exact"];
+
+fn perspective() -> (MethodSpec, Grid) {
+    (PERSP, frustum_grid([13, 9, 21]))
+}
+
+fn orthographic() -> (MethodSpec, Grid) {
+    (ORTHO, box_grid([23, 17, 29]))
+}
+
+/// A grid with about half of its clusters visible, on the device.
+struct Case {
+    grid: Grid,
+    visible: Vec<u32>,
+    lights: Vec<PointLight>,
+    bits: Vec<u32>,
+}
+
+impl Case {
+    fn new(grid: Grid, lights: Vec<PointLight>) -> Self {
+        let clusters = grid.cluster_count();
+        let bits = random_bits(clusters, 2, 5);
+        let visible = cpu::compact(&fragments_of(&bits, clusters)).visible;
+        Self { grid, visible, lights, bits }
+    }
+
+    /// The list of each visible cluster, by brute force.
+    fn lists(&self, method: MethodSpec, test: SphereTest) -> Vec<Vec<u32>> {
+        let room =
+            Capacities { visible_clusters: self.grid.cluster_count() as u32, light_indices: 8_000_000 };
+        let config = Config { test: vec![Test::Named(test)], ..config() };
+        let mut bench = Bench::with_config(&config, method, self.grid, &self.lights, room);
+        bench.compact(&self.bits);
+        bench.run(|r, frame| {
+            crate::passes::lights::record(r, frame);
+            assign::transform_lights(r, frame, 0);
+            assign::count_lights(r, frame, 0);
+            scan::light_offsets(r, frame, 0);
+            assign::assign_lights(r, frame, 0);
+            readback::states(r, frame);
+        });
+        let state = bench.engine.states(&bench.session, 0)[0];
+        assert!(state.index_total > 1000, "the case assigns next to nothing");
+        let segments = clustering::segments(self.lights.len() as u32).0 as usize;
+        let offsets = bench.download(|c| &c.buffers.list_offsets, self.visible.len() * segments + 1);
+        let indices = bench.download(|c| &c.buffers.light_indices, state.index_total as usize);
+        let at = |list: usize| offsets[list * segments] as usize;
+        (0..self.visible.len()).map(|list| indices[at(list)..at(list + 1)].to_vec()).collect()
+    }
+}
+
+/// Lists of the device equal the twin's, but for pairs that the twin itself marks as too close to call.
+fn lists_equal_their_twin((method, grid): (MethodSpec, Grid), test: SphereTest, lights: Vec<PointLight>) {
+    let case = Case::new(grid, lights);
+    let lists = case.lists(method, test);
+    let twin = cpu::assign(&grid, &case.visible, &case.lights, test, 1e-4);
+    for (i, list) in lists.iter().enumerate() {
+        assert!(list.is_sorted(), "a list is not in ascending order");
+        let sure = |lights: &[u32]| -> Vec<u32> {
+            lights.iter().copied().filter(|light| !twin.borderline[i].contains(light)).collect()
+        };
+        assert_eq!(sure(list), sure(twin.list(i)), "{test}, cluster {}", case.visible[i]);
+    }
+    let borderline: usize = twin.borderline.iter().map(Vec::len).sum();
+    assert!(borderline * 200 < twin.indices.len(), "{test}: {borderline} pairs are too close to call");
+}
+
+#[test]
+fn perspective_lists_equal_their_twin() {
+    for count in [500, 1000, 5001] {
+        lists_equal_their_twin(perspective(), SphereTest::HALF_SPACES, lights(count));
+    }
+}
+
+#[test]
+fn orthographic_lists_equal_their_twin() {
+    lists_equal_their_twin(orthographic(), SphereTest::Box, lights(4097));
+}
+
+#[test]
+fn lists_of_all_tests_equal_their_twins() {
+    for test in TESTS.map(|name| name.parse().unwrap()) {
+        lists_equal_their_twin(perspective(), test, lights(700));
+        lists_equal_their_twin(orthographic(), test, lights(700));
+    }
+}
+
+/// Lights that touch one cluster each, by the last bit of their radius or little more; they lie in all directions from it.
+fn touching_lights(grid: &Grid, visible: &[u32], count: u32) -> Vec<(u32, PointLight)> {
+    let mut random = noise(77);
+    let mut unit = move || f64::from(random() % 65_536) / 65_536.0;
+    let mut found = Vec::new();
+    while found.len() < count as usize {
+        let cluster = visible[(unit() * visible.len() as f64) as usize];
+        let cell = grid.cluster_at(cluster);
+        let inside = DVec3::from_array(cell.map(|index| f64::from(index) + unit()));
+        let away = DVec3::new(unit() - 0.5, unit() - 0.5, unit() - 0.5).normalize_or(DVec3::X);
+        let local = grid.point_at(inside) + away * 10f64.powf(3.0 * unit() - 1.5);
+        let position = grid.pose.transform_point(local).as_vec3();
+        let center = grid.pose.inverse_transform_point(position.as_dvec3());
+        let distance = -CellTest::new(SphereTest::Exact, grid, cell).margin(center, 0.0);
+        if distance > 0.01 {
+            let r1 = (distance as f32).next_up();
+            found.push((cluster, PointLight { position: position.to_array(), r1, ..lights(1)[0] }));
+        }
+    }
+    found
+}
+
+fn no_touching_light_is_lost(method: MethodSpec, grid: Grid) {
+    let visible = Case::new(grid, vec![]).visible;
+    let (touched, lights): (Vec<u32>, Vec<PointLight>) =
+        touching_lights(&grid, &visible, 6000).into_iter().unzip();
+    let case = Case::new(grid, lights);
+    for test in TESTS.map(|name| name.parse().unwrap()) {
+        let lists = case.lists(method, test);
+        for (light, cluster) in (0u32..).zip(&touched) {
+            let list = &lists[visible.binary_search(cluster).unwrap()];
+            assert!(list.binary_search(&light).is_ok(), "{test}: cluster {cluster} lost light {light}");
+        }
+    }
+}
+
+#[test]
+fn no_touching_light_is_lost_in_perspective_grids() {
+    no_touching_light_is_lost(PERSP, frustum_grid([13, 9, 21]));
+    // Few, large clusters: the lengths that are projected are as long as the grid.
+    no_touching_light_is_lost(PERSP, frustum_grid([2, 2, 3]));
+}
+
+#[test]
+fn no_touching_light_is_lost_in_orthographic_grids() {
+    no_touching_light_is_lost(ORTHO, box_grid([23, 17, 29]));
+}
