@@ -1,11 +1,10 @@
 //! Ways of light assignment, and the sizes of what the accelerated ones work with: pure, for host and tests.
 //!
-//! All ways give the same lists. Brute force tests every visible cluster against every light; the hierarchy takes
-//! each visible cluster down a tree of lights, built anew each frame; scatter takes each light through the cells that
-//! its bounds meet.
+//! All ways give the same lists. Brute force tests every visible cluster against every light. The others first drop the
+//! lights whose cells hold nothing visible; what is left, the candidates, the hierarchy puts into a tree, built anew each
+//! frame, down which each visible cluster goes, and scatter hands out to groups of visible clusters.
 
-use crate::clustering::segments;
-use crate::gpu_interface::{SORT_BITS, TREE_WIDTH};
+use crate::gpu_interface::{ASSIGN_GROUP, BLOCK_COLUMNS, SORT_BITS, TREE_WIDTH};
 use std::fmt;
 
 /// How the light lists are built.
@@ -15,7 +14,7 @@ pub enum Assigner {
     Brute,
     /// Every visible cluster down a tree of lights.
     Hierarchy,
-    /// Every light through the cells near it.
+    /// Every light to the groups of visible clusters near it.
     Scatter,
 }
 
@@ -72,24 +71,30 @@ impl AssignCounts {
     }
 }
 
-/// Up to this many lights, lists are kept as bits while they are counted.
-const MAX_MASK_LIGHTS: u32 = 1 << 14;
-/// Bits take at most this many bytes, else segments are counted and sorted.
-const MAX_MASK_BYTES: u64 = 64 << 20;
+/// Bits of lists take at most this many words.
+const MAX_MASK_WORDS: u64 = 16 << 20;
 
-impl Assigner {
-    /// Whether lists of up to `lights` lights are kept as bits, for `visible` clusters, while they are counted: then
-    /// nothing is tested twice, and nothing sorted.
-    pub fn keeps_bits(self, lights: u32, visible: u32) -> bool {
-        let (segments, _) = segments(lights);
-        let bytes = 4 * u64::from(visible) * u64::from(segments) * u64::from(mask_words(lights));
-        self != Self::Brute && lights <= MAX_MASK_LIGHTS && bytes <= MAX_MASK_BYTES
-    }
+/// Words of bits for the lists of `visible` clusters, a bit per light, as far as they are kept at all.
+pub fn mask_capacity(lights: u32, visible: u32) -> u64 {
+    let tiles = u64::from(lights.div_ceil(ASSIGN_GROUP));
+    let words_per_tile = u64::from(ASSIGN_GROUP / 32);
+    (u64::from(visible) * tiles * words_per_tile).min(MAX_MASK_WORDS)
 }
 
-/// Words of bits that a segment of a list takes.
-pub fn mask_words(lights: u32) -> u32 {
-    segments(lights).1.div_ceil(32)
+/// Lights of groups are listed as far as they take no more entries than this, or four a light.
+const MIN_GROUP_CAPACITY: u64 = 1 << 20;
+
+/// Entries for the lights of `groups` groups of visible clusters, each group's list filled up to whole tiles.
+pub fn group_capacity(lights: u32, groups: u64) -> u64 {
+    let tile = u64::from(ASSIGN_GROUP);
+    let most = groups * u64::from(lights).next_multiple_of(tile);
+    most.min((4 * u64::from(lights)).max(MIN_GROUP_CAPACITY)).next_multiple_of(tile)
+}
+
+/// Clusters of a block, along each axis: a block's column has a word, and a block along z a bit.
+pub fn block_size(dimensions: [u32; 3]) -> [u32; 3] {
+    let most = [BLOCK_COLUMNS, BLOCK_COLUMNS, u32::BITS];
+    std::array::from_fn(|axis| dimensions[axis].div_ceil(most[axis]))
 }
 
 /// Depth of a light hierarchy at which its places are the lights: at least 2, for the root itself is never made.
@@ -146,23 +151,29 @@ mod tests {
 
     #[test]
     fn bits_cover_all_lights_within_their_bounds() {
-        for (lights, visible) in
-            [(1, 1), (1000, 1 << 14), (16_384, 1 << 14), (16_384, 1 << 20), (100_000, 100)]
-        {
-            let (count, size) = segments(lights);
-            assert!(32 * mask_words(lights) >= size);
-            assert!(!Assigner::Brute.keeps_bits(lights, visible));
-            let bytes = u64::from(mask_words(lights)) * u64::from(count) * u64::from(visible) * 4;
-            assert!(!Assigner::Hierarchy.keeps_bits(lights, visible) || bytes <= MAX_MASK_BYTES);
+        for (lights, visible) in [(0, 10), (1, 1), (1000, 1 << 14), (16_384, 1 << 20), (100_000, 100)] {
+            let words = mask_capacity(lights, visible);
+            assert!(words <= MAX_MASK_WORDS);
+            assert!(words == MAX_MASK_WORDS || 32 * words >= u64::from(lights) * u64::from(visible));
         }
-        assert!(Assigner::Scatter.keeps_bits(10_000, 1 << 14));
     }
 
     #[test]
-    fn bits_of_fewer_lights_fit_where_those_of_more_do() {
-        let words = |lights| segments(lights).0 * mask_words(lights);
-        for lights in 1..20_000 {
-            assert!(words(lights) <= words(lights + 1), "{lights} lights");
+    fn lights_of_groups_fill_whole_tiles() {
+        for (lights, groups) in [(1, 1), (65, 3), (1000, 256), (1_000_000, 256), (5, 0)] {
+            let entries = group_capacity(lights, groups);
+            assert_eq!(entries % u64::from(ASSIGN_GROUP), 0);
+            assert!(entries >= u64::from(lights) || groups == 0);
+        }
+    }
+
+    #[test]
+    fn blocks_cover_the_grid() {
+        for dimensions in [[1, 1, 1], [16, 17, 33], [200, 113, 100], [65_536, 1, 2048]] {
+            let size = block_size(dimensions);
+            for (axis, most) in [BLOCK_COLUMNS, BLOCK_COLUMNS, 32].into_iter().enumerate() {
+                assert!(size[axis] >= 1 && (dimensions[axis] - 1) / size[axis] < most);
+            }
         }
     }
 

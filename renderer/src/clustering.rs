@@ -1,15 +1,16 @@
 //! The device's side of one clustering: its buffers, their sizes, their descriptor sets.
 //!
 //! ```text
-//! cluster_bits ─> word_ranks, visible_clusters ─> segment_counts ─> list_offsets ─> light_indices
+//! cluster_bits ─> word_ranks, visible_clusters ─> light_masks, list_lengths ─> list_offsets ─> light_indices
 //! ```
 
 use crate::assign::{self, Assigner};
 use crate::frame::SLOTS;
 use crate::geometry::{ClusterSpace, Grid};
 use crate::gpu_interface::{
-    BUFFERS, COUNTER_COUNT, ClusteringState, DISPATCH_COUNT, DispatchSize, GridData, LightNode, PixelData,
-    SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS, ViewData,
+    ASSIGN_GROUP, BLOCK_WORDS, BUFFERS, COUNTER_COUNT, Candidate, ClusterGroup, ClusteringState,
+    DISPATCH_COUNT, DispatchSize, GridData, LightNode, PixelData, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS,
+    ViewData,
 };
 use crate::layouts::{DescriptorSets, Layouts, write_buffer_set};
 use crate::measure::Capacities;
@@ -41,41 +42,40 @@ pub struct ClusteringSizes {
     pub pixels: u64,
 }
 
-/// Lights are split into at most this many segments, so that few visible clusters still fill a GPU.
-const MAX_SEGMENTS: u32 = 16;
-/// A segment holds at least this many lights.
-const MIN_SEGMENT: u32 = 256;
-
-/// (Segments, lights per segment) that assignment splits `lights` into.
-pub fn segments(lights: u32) -> (u32, u32) {
-    let count = lights.div_ceil(MIN_SEGMENT).clamp(1, MAX_SEGMENTS);
-    (count, lights.div_ceil(count))
-}
-
 impl ClusteringSizes {
     /// Words of the visibility bits.
     pub fn words(&self) -> u64 {
         self.clusters.div_ceil(32)
     }
 
-    fn list_segments(&self) -> u64 {
-        u64::from(self.capacities.visible_clusters) * u64::from(segments(self.lights).0)
-    }
-
-    /// Whether lists are kept as bits while they are counted.
-    fn keeps_bits(&self) -> bool {
-        self.assigner.keeps_bits(self.lights, self.capacities.visible_clusters)
-    }
-
     /// Words of the bits of all lists.
     fn mask_words(&self) -> u64 {
-        let words = if self.keeps_bits() { assign::mask_words(self.lights) } else { 0 };
-        self.list_segments() * u64::from(words)
+        assign::mask_capacity(self.lights, self.capacities.visible_clusters)
+    }
+
+    /// Lights, where there are candidates among them.
+    fn culled_lights(&self) -> u64 {
+        if self.assigner == Assigner::Brute { 0 } else { u64::from(self.lights) }
     }
 
     /// Lights in the hierarchy.
     fn tree_lights(&self) -> u64 {
         if self.assigner == Assigner::Hierarchy { u64::from(self.lights) } else { 0 }
+    }
+
+    /// Groups of visible clusters that scatter makes.
+    fn groups(&self) -> u64 {
+        let groups = u64::from(self.capacities.visible_clusters.div_ceil(ASSIGN_GROUP));
+        if self.assigner == Assigner::Scatter { groups } else { 0 }
+    }
+
+    /// Lights of groups that are listed.
+    fn group_lights(&self) -> u64 {
+        if self.assigner == Assigner::Scatter {
+            assign::group_capacity(self.lights, self.groups())
+        } else {
+            0
+        }
     }
 
     /// Counts of the digits of all blocks of the sort.
@@ -84,7 +84,7 @@ impl ClusteringSizes {
     }
 
     /// Bytes of each buffer, in binding order of those that [`ClusteringBuffers`] makes.
-    fn bytes(&self) -> [(&'static str, u64); 19] {
+    fn bytes(&self) -> [(&'static str, u64); 22] {
         let counting = u64::from(self.counting);
         let visible = u64::from(self.capacities.visible_clusters);
         let nodes = if self.tree_lights() > 0 { assign::tree_nodes(self.lights) } else { 0 };
@@ -95,8 +95,8 @@ impl ClusteringSizes {
             ("word_ranks", 4 * self.words()),
             ("visible_clusters", 4 * visible),
             ("block_sums", 4 * blocks),
-            ("segment_counts", 4 * self.list_segments()),
-            ("list_offsets", 4 * (self.list_segments() + 1)),
+            ("list_lengths", 4 * visible),
+            ("list_offsets", 4 * (visible + 1)),
             ("light_indices", 4 * u64::from(self.capacities.light_indices)),
             ("state", size_of::<ClusteringState>() as u64),
             ("dispatches", u64::from(DISPATCH_COUNT) * size_of::<DispatchSize>() as u64),
@@ -105,26 +105,29 @@ impl ClusteringSizes {
             ("lights_per_fragment", 4 * (u64::from(self.lights) + 1) * counting),
             ("light_masks", 4 * self.mask_words()),
             ("sort_items", 2 * 8 * self.tree_lights()),
-            ("digit_counts", 4 * self.digit_counts()),
+            ("digit_counts", 4 * (self.digit_counts() + self.group_lights() / u64::from(ASSIGN_GROUP))),
             ("tree_spheres", 16 * self.tree_lights()),
-            ("tree_lights", 4 * self.tree_lights()),
-            ("light_nodes", size_of::<LightNode>() as u64 * nodes),
+            ("tree_lights", 4 * (self.tree_lights() + self.group_lights())),
+            (
+                "light_nodes",
+                size_of::<LightNode>() as u64 * nodes + size_of::<ClusterGroup>() as u64 * self.groups(),
+            ),
+            ("block_bits", 4 * u64::from(BLOCK_WORDS)),
+            ("light_bits", 4 * self.culled_lights().div_ceil(32)),
+            ("candidates", size_of::<Candidate>() as u64 * self.culled_lights()),
         ]
     }
 
     /// Items of the longest prefix sum.
     fn scan_items(&self) -> u64 {
-        self.words().max(self.list_segments()).max(self.digit_counts())
+        self.words().max(u64::from(self.capacities.visible_clusters)).max(self.digit_counts())
     }
 
     /// The most entries that the device's buffers hold.
     pub fn most(&self, limits: &Limits) -> Capacities {
         let words = limits.max_storage_buffer_range / 4;
         let entries = |words: u64| u32::try_from(words).unwrap_or(u32::MAX);
-        Capacities {
-            visible_clusters: entries((words - 1) / u64::from(segments(self.lights).0)),
-            light_indices: entries(words),
-        }
+        Capacities { visible_clusters: entries(words - 1), light_indices: entries(words) }
     }
 
     /// Refuses what the device cannot hold or dispatch, naming the largest fault.
@@ -142,8 +145,15 @@ impl ClusteringSizes {
                 )));
             }
         }
-        let groups = self.scan_items().div_ceil(u64::from(SCAN_BLOCK));
         let most = u64::from(limits.max_compute_work_group_count[0]);
+        let tiles = u64::from(self.lights.div_ceil(ASSIGN_GROUP));
+        if tiles > most {
+            return Err(Error::Device(format!(
+                "{} lights would need a dispatch of {tiles} workgroups but the device allows {most}: use fewer lights",
+                self.lights
+            )));
+        }
+        let groups = self.scan_items().div_ceil(u64::from(SCAN_BLOCK));
         if groups > most {
             return Err(Error::Device(format!(
                 "{} visible clusters would need a dispatch of {groups} workgroups but the device allows {most}: \
@@ -167,9 +177,9 @@ pub struct ClusteringBuffers {
     pub visible_clusters: Buffer,
     /// Of the prefix sums.
     pub block_sums: Buffer,
-    /// Lights in each segment of each list.
-    pub segment_counts: Buffer,
-    /// Where each segment begins, and the total.
+    /// How many lights each list has.
+    pub list_lengths: Buffer,
+    /// Where each list begins, and the total.
     pub list_offsets: Buffer,
     /// The lists.
     pub light_indices: Buffer,
@@ -185,18 +195,24 @@ pub struct ClusteringBuffers {
     pub lights_per_fragment: Buffer,
     /// [`PixelData`] of one view.
     pub pixels: Buffer,
-    /// Bits of the lists, a bit per light; few lights alone.
+    /// Bits of the lists, a bit per light.
     pub light_masks: Buffer,
-    /// (Key, light), two halves.
+    /// (Key, candidate), two halves.
     pub sort_items: Buffer,
-    /// Of the sort, by digit, then by block.
+    /// Of the sort, by digit, then by block; or the groups of scatter's tiles.
     pub digit_counts: Buffer,
     /// `light_spheres` in the order of the hierarchy.
     pub tree_spheres: Buffer,
-    /// Their indices.
+    /// Their numbers among the candidates; or the lights of scatter's groups.
     pub tree_lights: Buffer,
-    /// The nodes of the hierarchy.
+    /// The nodes of the hierarchy; or scatter's groups.
     pub light_nodes: Buffer,
+    /// Blocks that hold visible clusters, a bit each.
+    pub block_bits: Buffer,
+    /// Lights that may meet a visible cluster, a bit each.
+    pub light_bits: Buffer,
+    /// Those lights.
+    pub candidates: Buffer,
 }
 
 impl ClusteringBuffers {
@@ -214,7 +230,7 @@ impl ClusteringBuffers {
             word_ranks: make("word_ranks")?,
             visible_clusters: make("visible_clusters")?,
             block_sums: make("block_sums")?,
-            segment_counts: make("segment_counts")?,
+            list_lengths: make("list_lengths")?,
             list_offsets: make("list_offsets")?,
             light_indices: make("light_indices")?,
             state: make("state")?,
@@ -229,6 +245,9 @@ impl ClusteringBuffers {
             tree_spheres: make("tree_spheres")?,
             tree_lights: make("tree_lights")?,
             light_nodes: make("light_nodes")?,
+            block_bits: make("block_bits")?,
+            light_bits: make("light_bits")?,
+            candidates: make("candidates")?,
         })
     }
 }
@@ -267,8 +286,8 @@ pub struct Clustering {
     pub views: Range<usize>,
     /// Words of visibility bits of this frame's grid.
     pub word_count: u32,
-    /// Whether lists are kept as bits while they are counted.
-    pub masked: bool,
+    /// Most visible clusters that fit.
+    pub visible_capacity: u32,
     _sets: DescriptorSets,
 }
 
@@ -296,7 +315,7 @@ impl Clustering {
             sets: [sets.sets[0], sets.sets[1]],
             views,
             word_count: 0,
-            masked: sizes.keeps_bits(),
+            visible_capacity: sizes.capacities.visible_clusters,
             _sets: sets,
         })
     }
@@ -318,7 +337,7 @@ fn handles(
         &b.word_ranks,
         &b.visible_clusters,
         &b.block_sums,
-        &b.segment_counts,
+        &b.list_lengths,
         &b.list_offsets,
         &b.light_indices,
         &b.state,
@@ -335,6 +354,9 @@ fn handles(
         &b.tree_spheres,
         &b.tree_lights,
         &b.light_nodes,
+        &b.block_bits,
+        &b.light_bits,
+        &b.candidates,
     ]
     .map(|buffer| buffer.handle)
 }
@@ -356,7 +378,6 @@ pub fn grid_data(grid: &Grid, lights: u32, sizes: &ClusteringSizes) -> GridData 
             (min, (max - min) / dimensions, min.abs().max(max.abs()).max_element())
         }
     };
-    let (segment_count, segment_size) = segments(lights);
     let (low, high) = bounds(grid);
     GridData {
         clustering_from_world: rigid_inverse(&grid.pose),
@@ -367,11 +388,11 @@ pub fn grid_data(grid: &Grid, lights: u32, sizes: &ClusteringSizes) -> GridData 
         cell: cell.as_vec3().to_array(),
         slack: SLACK_PER_METRE * reach as f32,
         light_count: lights,
-        segment_count,
-        segment_size,
         visible_capacity: sizes.capacities.visible_clusters,
         index_capacity: sizes.capacities.light_indices,
-        mask_words: if sizes.keeps_bits() { assign::mask_words(lights) } else { 0 },
+        mask_capacity: sizes.mask_words() as u32,
+        group_capacity: sizes.group_lights() as u32,
+        block_size: assign::block_size(grid.dimensions),
         sort_passes: assign::sort_passes(lights),
         tree_depth: assign::tree_depth(lights),
         bounds_low: low.as_vec3().to_array(),
@@ -416,20 +437,5 @@ pub fn view_data(view: &crate::views::View, grid: Option<&Grid>, resolution: [u3
         resolution,
         near: -f.z1 as f32,
         far: -f.z0 as f32,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn segments_cover_all_lights() {
-        for lights in [0, 1, 255, 256, 257, 1000, 4096, 4097, 100_000, 1_000_000] {
-            let (count, size) = segments(lights);
-            assert!((1..=MAX_SEGMENTS).contains(&count));
-            assert!(count * size >= lights, "{count} segments of {size} lose some of {lights} lights");
-            assert!(lights == 0 || (count - 1) * size < lights, "an empty segment at {lights} lights");
-        }
     }
 }

@@ -8,7 +8,7 @@ use crate::draw_list::DrawList;
 use crate::gpu_scene::GpuScene;
 use crate::layouts::Layouts;
 use crate::pass::Recorder;
-use crate::passes::{assign, depth, hierarchy, lights, mark, readback, resolve, scan, shade};
+use crate::passes::{assign, cull_lights, depth, hierarchy, lights, mark, readback, resolve, scan, shade};
 use crate::pipelines::Pipelines;
 use crate::vk::{Buffer, Image};
 use ash::vk;
@@ -48,6 +48,8 @@ pub struct Frame<'a> {
     pub marking: Marking,
     /// How the light lists are built.
     pub assigner: Assigner,
+    /// Whether views are shaded; else the frame ends with the light lists.
+    pub shaded: bool,
     /// The lights on the device.
     pub lights: &'a Buffer,
     /// The lights as the host wrote them.
@@ -85,10 +87,12 @@ pub fn record(r: &mut Recorder, frame: &Frame) {
                 depth::record(r, frame, view);
             }
         }
-        for view in 0..frame.targets.len() {
-            shade::record(r, frame, view);
+        if frame.shaded {
+            for view in 0..frame.targets.len() {
+                shade::record(r, frame, view);
+            }
+            resolve::record(r, frame);
         }
-        resolve::record(r, frame);
         readback::states(r, frame);
     });
 }
@@ -103,6 +107,9 @@ fn cluster(r: &mut Recorder, frame: &Frame, clustering: usize) {
     }
     scan::compact(r, frame, clustering);
     assign::transform_lights(r, frame, clustering);
+    if frame.assigner != Assigner::Brute {
+        cull_lights::cull_lights(r, frame, clustering);
+    }
     if frame.assigner == Assigner::Hierarchy {
         hierarchy::build_hierarchy(r, frame, clustering);
     }

@@ -3,13 +3,15 @@
 //!
 //! ```text
 //! views ─┬─> cluster_bits ──scan──> word_ranks, visible_clusters ─┐
-//! grid ──┘      (mark)                                            ├─> segment_counts ──scan──> list_offsets ─┐
+//! grid ──┘      (mark)                                            ├─> list_lengths ──scan──> list_offsets ───┐
 //! lights ─────> light_spheres ────────────────────────────────────┘   (count_lights)                         │
 //!               (transform_lights)             └──────────────────────────> light_indices (assign_lights) <──┘
 //! ```
 //!
-//! Assignment by hierarchy or scatter goes to `segment_counts` by way of `light_masks` where lights are few, and the
-//! hierarchy puts `sort_items` and `digit_counts`, then `tree_spheres`, `tree_lights` and `light_nodes` before it.
+//! All ways go to `list_lengths` by way of `light_masks` where these have room. Hierarchy and scatter first put the lights
+//! that may meet a visible cluster into `candidates` (cull_lights: `block_bits`, `light_bits`); then the hierarchy makes
+//! `sort_items`, `digit_counts`, `tree_spheres`, `tree_lights` and `light_nodes`, scatter `groups`, `tile_groups` and
+//! `group_lights`.
 
 use crate::gpu_struct;
 use crate::lights::Attenuation;
@@ -56,16 +58,16 @@ gpu_struct! {
         pub slack: f32,
         /// Lights in this frame.
         pub light_count: u32,
-        /// Segments that the lights are split into for assignment.
-        pub segment_count: u32,
-        /// Lights per segment.
-        pub segment_size: u32,
         /// Visible clusters that fit.
         pub visible_capacity: u32,
         /// Light indices that fit.
         pub index_capacity: u32,
-        /// Words of light bits per segment of a list; 0 where segments are counted instead.
-        pub mask_words: u32,
+        /// Words of light bits that fit, of all lists together.
+        pub mask_capacity: u32,
+        /// Lights of groups that fit, a multiple of a tile's.
+        pub group_capacity: u32,
+        /// Clusters of a block, along each axis.
+        pub block_size: [u32; 3],
         /// Passes of the sort of the light hierarchy.
         pub sort_passes: u32,
         /// Depth of the light hierarchy at which its places are lights.
@@ -150,8 +152,40 @@ gpu_struct! {
         pub visible: u32,
         /// Light indices there are.
         pub index_total: u32,
-        /// Lights in the hierarchy: those that can meet a cell.
-        pub tree_lights: u32,
+        /// Lights that lists are made of: all, or those that may meet a visible cluster.
+        pub candidates: u32,
+        /// Words of light bits a list.
+        pub mask_words: u32,
+        /// Whether those of all lists fit; 0 where lights are counted and sorted instead.
+        pub masked: u32,
+        /// Tiles that scatter tests.
+        pub tiles: u32,
+        /// Whether the lights of groups are listed; 0 where that did not fit, and each group gets all candidates.
+        pub listed: u32,
+    }
+}
+
+gpu_struct! {
+    /// A group of visible clusters, a workgroup's.
+    pub struct ClusterGroup {
+        /// Lowest and highest cell, an axis each in two halves.
+        pub cells: [u32; 3],
+        /// Candidates whose cells meet those.
+        pub lights: u32,
+        /// How many of them are listed yet.
+        pub listed: u32,
+        /// Its first tile.
+        pub first_tile: u32,
+    }
+}
+
+gpu_struct! {
+    /// A light that may meet a visible cluster.
+    pub struct Candidate {
+        /// Which.
+        pub light: u32,
+        /// Lowest and highest cell that it may meet, an axis each in two halves.
+        pub cells: [u32; 3],
     }
 }
 
@@ -194,7 +228,7 @@ pub enum Binding {
     WordRanks,
     VisibleClusters,
     BlockSums,
-    SegmentCounts,
+    ListLengths,
     ListOffsets,
     LightIndices,
     State,
@@ -211,10 +245,13 @@ pub enum Binding {
     TreeSpheres,
     TreeLights,
     LightNodes,
+    BlockBits,
+    LightBits,
+    Candidates,
 }
 
 /// Every buffer as (binding, access, GLSL member).
-pub const BUFFERS: [(Binding, &str, &str); 25] = [
+pub const BUFFERS: [(Binding, &str, &str); 28] = [
     (Binding::Views, "readonly", "ViewData views[]"),
     (Binding::Grid, "readonly", "GridData grid"),
     (Binding::Lights, "readonly", "LightData lights[]"),
@@ -223,7 +260,7 @@ pub const BUFFERS: [(Binding, &str, &str); 25] = [
     (Binding::WordRanks, "", "uint word_ranks[]"),
     (Binding::VisibleClusters, "", "uint visible_clusters[]"),
     (Binding::BlockSums, "", "uint block_sums[]"),
-    (Binding::SegmentCounts, "", "uint segment_counts[]"),
+    (Binding::ListLengths, "", "uint list_lengths[]"),
     (Binding::ListOffsets, "", "uint list_offsets[]"),
     (Binding::LightIndices, "", "uint light_indices[]"),
     (Binding::State, "", "ClusteringState state"),
@@ -240,6 +277,16 @@ pub const BUFFERS: [(Binding, &str, &str); 25] = [
     (Binding::TreeSpheres, "", "vec4 tree_spheres[]"),
     (Binding::TreeLights, "", "uint tree_lights[]"),
     (Binding::LightNodes, "", "LightNode light_nodes[]"),
+    (Binding::BlockBits, "", "uint block_bits[]"),
+    (Binding::LightBits, "", "uint light_bits[]"),
+    (Binding::Candidates, "", "Candidate candidates[]"),
+];
+
+/// What scatter keeps in buffers of the hierarchy, which never runs beside it: devices bind few buffers.
+const ALIASES: [(Binding, &str); 3] = [
+    (Binding::DigitCounts, "uint tile_groups[]"),
+    (Binding::TreeLights, "uint group_lights[]"),
+    (Binding::LightNodes, "ClusterGroup groups[]"),
 ];
 
 /// Descriptor set of the storage buffers.
@@ -252,18 +299,38 @@ pub const SET_DEPTH: u32 = 2;
 pub const SCAN_GROUP: u32 = 256;
 /// Items that such a workgroup takes.
 pub const SCAN_BLOCK: u32 = 1024;
-/// Threads of a workgroup of the assignment passes.
+/// Threads of a workgroup of the assignment passes; visible clusters of a group, lights of a tile.
 pub const ASSIGN_GROUP: u32 = 64;
-/// Slot of the assignment's dispatch size.
-pub const DISPATCH_ASSIGN: u32 = 0;
+/// Tiles along x of a dispatch; more go along y.
+pub const TILE_ROW: u32 = 1 << 15;
+/// Blocks of clusters along x and y, at most; along z there are up to 32, a bit each.
+pub const BLOCK_COLUMNS: u32 = 16;
+/// Words of all columns of blocks, with the coarser ones behind them, two by two joined, down to one.
+pub const BLOCK_WORDS: u32 = (4 * BLOCK_COLUMNS * BLOCK_COLUMNS - 1) / 3;
+/// Groups that one thread takes a candidate to.
+pub const GROUP_CHUNK: u32 = 16;
+/// Threads of a cluster, among which the hierarchy's subtrees are dealt out.
+pub const TREE_SPLIT: u32 = 8;
+/// Slot of the dispatch size with a thread a list.
+pub const DISPATCH_LISTS: u32 = 0;
+/// The same where light bits fit, else nothing.
+pub const DISPATCH_MASKED: u32 = 1;
+/// The same where they do not, else nothing.
+pub const DISPATCH_UNMASKED: u32 = 2;
+/// Slot of the dispatch size that finds who meets whom.
+pub const DISPATCH_MEET: u32 = 3;
+/// The same once more where light bits do not fit, else nothing.
+pub const DISPATCH_MEET_AGAIN: u32 = 4;
 /// Slot of the dispatch size of the prefix sum over list lengths.
-pub const DISPATCH_SCAN: u32 = 1;
-/// Slot of the dispatch size of the sort's later passes.
-pub const DISPATCH_SORT: u32 = 2;
-/// Slot of the dispatch size of their prefix sums.
-pub const DISPATCH_SORT_SCAN: u32 = 3;
+pub const DISPATCH_SCAN: u32 = 5;
+/// Slot of the dispatch size that takes candidates to groups.
+pub const DISPATCH_GROUPS: u32 = 6;
+/// Slot of the dispatch size of the sort.
+pub const DISPATCH_SORT: u32 = 7;
+/// Slot of the dispatch size of its prefix sums.
+pub const DISPATCH_SORT_SCAN: u32 = 8;
 /// First slot of the dispatch sizes of the light hierarchy's depths.
-pub const DISPATCH_NODES: u32 = 4;
+pub const DISPATCH_NODES: u32 = 9;
 /// How many slots there are.
 pub const DISPATCH_COUNT: u32 = DISPATCH_NODES + MAX_TREE_DEPTH;
 /// Children of a node of the light hierarchy, a power of two.
@@ -304,15 +371,24 @@ const COUNTERS: [(&str, Counter); COUNTER_COUNT] = [
     ("COUNTER_INTERSECTION_TESTS", Counter::IntersectionTests),
 ];
 
-const CONSTANTS: [(&str, u32); 15] = [
+const CONSTANTS: [(&str, u32); 24] = [
     ("SET_BUFFERS", SET_BUFFERS),
     ("SET_MATERIAL", SET_MATERIAL),
     ("SET_DEPTH", SET_DEPTH),
     ("SCAN_GROUP", SCAN_GROUP),
     ("SCAN_BLOCK", SCAN_BLOCK),
     ("ASSIGN_GROUP", ASSIGN_GROUP),
-    ("DISPATCH_ASSIGN", DISPATCH_ASSIGN),
+    ("TILE_ROW", TILE_ROW),
+    ("BLOCK_COLUMNS", BLOCK_COLUMNS),
+    ("GROUP_CHUNK", GROUP_CHUNK),
+    ("TREE_SPLIT", TREE_SPLIT),
+    ("DISPATCH_LISTS", DISPATCH_LISTS),
+    ("DISPATCH_MASKED", DISPATCH_MASKED),
+    ("DISPATCH_UNMASKED", DISPATCH_UNMASKED),
+    ("DISPATCH_MEET", DISPATCH_MEET),
+    ("DISPATCH_MEET_AGAIN", DISPATCH_MEET_AGAIN),
     ("DISPATCH_SCAN", DISPATCH_SCAN),
+    ("DISPATCH_GROUPS", DISPATCH_GROUPS),
     ("DISPATCH_SORT", DISPATCH_SORT),
     ("DISPATCH_SORT_SCAN", DISPATCH_SORT_SCAN),
     ("DISPATCH_NODES", DISPATCH_NODES),
@@ -323,9 +399,10 @@ const CONSTANTS: [(&str, u32); 15] = [
 ];
 
 /// Names of what shader variants choose among; the value is the position.
-const VARIANT_NAMES: [&[&str]; 3] = [
+const VARIANT_NAMES: [&[&str]; 4] = [
     &["SPACE_PERSPECTIVE", "SPACE_ORTHOGRAPHIC"],
-    &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS", "SCAN_DIGITS"],
+    &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS", "SCAN_DIGITS", "SCAN_LIGHTS", "SCAN_GROUPS"],
+    &["ASSIGN_BRUTE", "ASSIGN_HIERARCHY", "ASSIGN_SCATTER"],
     &["LOOKUP_ALL_LIGHTS", "LOOKUP_CLUSTERED"],
 ];
 
@@ -359,6 +436,8 @@ pub fn glsl() -> String {
         ClusteringState::GLSL,
         DispatchSize::GLSL,
         PixelData::GLSL,
+        ClusterGroup::GLSL,
+        Candidate::GLSL,
     ] {
         text.push_str(structure);
         text.push('\n');
@@ -368,6 +447,13 @@ pub fn glsl() -> String {
         let _ = writeln!(
             text,
             "layout(set = SET_BUFFERS, binding = {number}, scalar) {access} buffer Buffer{number} {{ {member}; }};"
+        );
+    }
+    for (binding, member) in ALIASES {
+        let number = binding as u32;
+        let _ = writeln!(
+            text,
+            "layout(set = SET_BUFFERS, binding = {number}, scalar) buffer Alias{number} {{ {member}; }};"
         );
     }
     text.push_str("layout(push_constant) uniform PushConstants { uint view; uint step; } push;\n");
@@ -390,6 +476,8 @@ mod tests {
             ClusteringState::INFO,
             DispatchSize::INFO,
             PixelData::INFO,
+            ClusterGroup::INFO,
+            Candidate::INFO,
         ]);
     }
 

@@ -68,6 +68,16 @@ impl Variant {
             .with("COUNTERS", u32::from(self.counting))
     }
 
+    /// Those of shaders that build lists.
+    fn list_defines(&self) -> Defines {
+        let assigner = match self.assigner {
+            Assigner::Brute => "ASSIGN_BRUTE",
+            Assigner::Hierarchy => "ASSIGN_HIERARCHY",
+            Assigner::Scatter => "ASSIGN_SCATTER",
+        };
+        self.defines().with("ASSIGN", assigner)
+    }
+
     /// Those of shaders that ask what a sphere meets besides.
     fn test_defines(&self) -> Defines {
         let boxes = matches!(self.method, MethodSpec::Clustered { space: Space::Ortho { .. }, .. });
@@ -79,7 +89,7 @@ impl Variant {
                 .map(|candidates| self.test.asks(candidates));
         // The edges of boxes are their normals.
         let bounded = half_spaces || normals || nearest || boxes && edges;
-        self.defines()
+        self.list_defines()
             .with("TEST_HS", u32::from(half_spaces))
             .with("TEST_SAT_E", u32::from(edges))
             .with("TEST_SAT_N", u32::from(nearest_vertex))
@@ -101,8 +111,10 @@ impl Defines {
     }
 }
 
-/// The three dispatches of a prefix sum.
+/// The three dispatches of a prefix sum, and the one that does without them.
 pub struct ScanPipelines {
+    /// Items to prefixes, where there are few.
+    pub single: Arc<Pipeline>,
     /// Items to block sums.
     pub reduce: Arc<Pipeline>,
     /// Block sums to block offsets.
@@ -129,22 +141,32 @@ pub struct ClusteredPipelines {
     pub compact: ScanPipelines,
     /// Lights into clustering space.
     pub transform_lights: Arc<Pipeline>,
-    /// Lengths of lists.
+    /// Empties what counting fills in any order.
+    pub clear_lists: Arc<Pipeline>,
+    /// Pairs that meet, to bits or lengths of lists.
     pub count_lights: Arc<Pipeline>,
+    /// Lengths of lists, and the lists, from their bits.
+    pub read_masks: [Arc<Pipeline>; 2],
     /// Prefix sum of the lengths.
     pub light_offsets: ScanPipelines,
-    /// The lists.
+    /// Pairs that meet, to the lists, in any order.
     pub assign_lights: Arc<Pipeline>,
+    /// Sorts the lists.
+    pub sort_lists: Arc<Pipeline>,
 }
 
 /// What assignment other than by brute force runs besides.
 pub struct AcceleratedPipelines {
-    /// Empties what counting fills in any order.
-    pub clear_lists: Arc<Pipeline>,
-    /// Lengths of lists, and the lists, from their bits.
-    pub read_masks: [Arc<Pipeline>; 2],
-    /// Sorts the segments of lists.
-    pub sort_lists: Arc<Pipeline>,
+    /// Marks the blocks that hold visible clusters.
+    pub mark_blocks: Arc<Pipeline>,
+    /// Lights that may meet one.
+    pub cull_lights: Arc<Pipeline>,
+    /// Prefix sum of their bits.
+    pub candidates: ScanPipelines,
+    /// Counts the candidates of each group of visible clusters, and lists them.
+    pub scatter_groups: [Arc<Pipeline>; 2],
+    /// Prefix sum of the tiles they fill.
+    pub group_tiles: ScanPipelines,
     /// Digits of each block of the sort.
     pub count_digits: Arc<Pipeline>,
     /// Their prefix sum.
@@ -229,15 +251,13 @@ impl PipelineStore {
     }
 
     fn accelerated(&mut self, variant: &Variant) -> Result<AcceleratedPipelines> {
-        let (defines, tests) = (&variant.defines(), &variant.test_defines());
-        let read_masks = "assign/read_masks.comp";
+        let (defines, tests) = (&variant.list_defines(), &variant.test_defines());
         Ok(AcceleratedPipelines {
-            clear_lists: self.compute("assign/clear_lists.comp", defines)?,
-            read_masks: [
-                self.compute(read_masks, &defines.with("WRITE_LISTS", 0))?,
-                self.compute(read_masks, &defines.with("WRITE_LISTS", 1))?,
-            ],
-            sort_lists: self.compute("assign/sort_lists.comp", defines)?,
+            mark_blocks: self.compute("cull/mark_blocks.comp", defines)?,
+            cull_lights: self.compute("cull/cull_lights.comp", tests)?,
+            candidates: self.scan(tests, "SCAN_LIGHTS")?,
+            scatter_groups: self.both("assign/scatter_groups.comp", defines, "FILL_GROUPS")?,
+            group_tiles: self.scan(defines, "SCAN_GROUPS")?,
             count_digits: self.compute("build/count_digits.comp", tests)?,
             digit_offsets: self.scan(defines, "SCAN_DIGITS")?,
             reorder: self.compute("build/reorder.comp", defines)?,
@@ -246,21 +266,30 @@ impl PipelineStore {
     }
 
     fn clustered(&mut self, variant: &Variant) -> Result<ClusteredPipelines> {
-        let (defines, tests) = (variant.defines(), variant.test_defines());
+        let (defines, tests) = (variant.list_defines(), variant.test_defines());
         let assign = match variant.assigner {
             Assigner::Brute => "assign/brute.comp",
             Assigner::Hierarchy => "assign/hierarchy.comp",
             Assigner::Scatter => "assign/scatter.comp",
         };
+        let [count_lights, assign_lights] = self.both(assign, &tests, "WRITE_LISTS")?;
         Ok(ClusteredPipelines {
             mark: self.mark(variant, false)?,
             count_fragments: self.mark(variant, true)?,
             compact: self.scan(&defines, "SCAN_VISIBILITY")?,
             transform_lights: self.compute("assign/transform_lights.comp", &defines)?,
-            count_lights: self.compute(assign, &tests.with("WRITE_LISTS", 0))?,
+            clear_lists: self.compute("assign/clear_lists.comp", &defines)?,
+            count_lights,
+            read_masks: self.both("assign/read_masks.comp", &defines, "WRITE_LISTS")?,
             light_offsets: self.scan(&defines, "SCAN_LIST_LENGTHS")?,
-            assign_lights: self.compute(assign, &tests.with("WRITE_LISTS", 1))?,
+            assign_lights,
+            sort_lists: self.compute("assign/sort_lists.comp", &defines)?,
         })
+    }
+
+    /// A compute shader twice: with `define` 0 and 1.
+    fn both(&mut self, path: &str, defines: &Defines, define: &'static str) -> Result<[Arc<Pipeline>; 2]> {
+        Ok([self.compute(path, &defines.with(define, 0))?, self.compute(path, &defines.with(define, 1))?])
     }
 
     fn mark(&mut self, variant: &Variant, count: bool) -> Result<MarkPipelines> {
@@ -275,6 +304,7 @@ impl PipelineStore {
     fn scan(&mut self, defines: &Defines, items: &str) -> Result<ScanPipelines> {
         let defines = defines.with("SCAN_ITEMS", items);
         Ok(ScanPipelines {
+            single: self.compute("scan/single.comp", &defines)?,
             reduce: self.compute("scan/reduce.comp", &defines)?,
             block_offsets: self.compute("scan/block_offsets.comp", &defines)?,
             apply: self.compute("scan/apply.comp", &defines)?,

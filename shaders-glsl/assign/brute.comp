@@ -1,38 +1,41 @@
-// Brute-force assignment (Gelderen section 5.3): a thread tests one visible cluster against one segment of the lights.
-//
-// Lists come out by ascending light: a cluster's segments follow each other, and each thread writes its own in order.
-// Threads of a workgroup share the segment, so they read the same light at the same time.
-// WRITE_LISTS 0 counts (pass count_lights), 1 writes at the offsets (pass assign_lights).
+// Brute force (Gelderen section 5.3): every visible cluster against every light, in tiles of both.
+// WRITE_LISTS 0 counts (pass count_lights), 1 writes (pass assign_lights) where light bits did not fit.
 #version 460
 #include "lib/counters.glsl"
-#include "lib/intersect.glsl"
+#include "lib/light_tile.glsl"
+#include "lib/list_builder.glsl"
 
 layout(local_size_x = ASSIGN_GROUP) in;
 
+void add_lights(uint visible, uint first, uint bits)
+{
+    for (; bits != 0u; bits &= bits - 1u)
+        add_light(visible, first + uint(findLSB(bits)));
+}
+
 void main()
 {
+    uint tile = gl_WorkGroupID.y;
+    uint first = tile * ASSIGN_GROUP;
+    uint there = min(grid.light_count - first, ASSIGN_GROUP);
+    fill_tile(light_spheres[first + min(gl_LocalInvocationID.x, there - 1u)]);
     uint visible = gl_GlobalInvocationID.x;
+    uvec2 met = lights_met(cell_of_visible(visible), there);
     if (visible >= state.visible)
         return;
-    uint segment = gl_WorkGroupID.y;
-    uint first = segment * grid.segment_size;
-    uint end = min(first + grid.segment_size, grid.light_count);
-    uint list = visible * grid.segment_count + segment;
-    CellBounds cell = cell_bounds(cell_of_linear(visible_clusters[visible]));
-#if WRITE_LISTS
-    uint offset = list_offsets[list];
-    for (uint light = first; light < end; ++light) {
-        if (meets(cell, light_spheres[light])) {
-            if (offset < grid.index_capacity)
-                light_indices[offset] = light;
-            ++offset;
-        }
+#if !WRITE_LISTS
+    if (state.masked != 0u) {
+        // A tile is two words that no other thread writes.
+        uint word = visible * state.mask_words + 2u * tile;
+        light_masks[word] = met.x;
+        light_masks[word + 1u] = met.y;
+        if (any(notEqual(met, uvec2(0u))))
+            atomicAdd(list_lengths[visible], uint(bitCount(met.x) + bitCount(met.y)));
+        count(COUNTER_INTERSECTION_TESTS, there);
+        return;
     }
-#else
-    uint lights_met = 0u;
-    for (uint light = first; light < end; ++light)
-        lights_met += uint(meets(cell, light_spheres[light]));
-    segment_counts[list] = lights_met;
 #endif
-    count(COUNTER_INTERSECTION_TESTS, end > first ? end - first : 0u);
+    add_lights(visible, first, met.x);
+    add_lights(visible, first + 32u, met.y);
+    count(COUNTER_INTERSECTION_TESTS, there);
 }

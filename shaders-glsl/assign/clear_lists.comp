@@ -1,4 +1,4 @@
-// Empties what counting fills in any order: the bits of each segment of a list, or its length.
+// Empties what counting fills in any order: the bits of each list, or its length.
 #version 460
 #include "generated/gpu_interface.glsl"
 
@@ -9,8 +9,10 @@ void main()
     uint visible = gl_GlobalInvocationID.x;
     if (visible >= state.visible)
         return;
-    uint list = visible * grid.segment_count + gl_WorkGroupID.y;
-    segment_counts[list] = 0u;
-    for (uint word = 0u; word < grid.mask_words; ++word)
-        light_masks[list * grid.mask_words + word] = 0u;
+    list_lengths[visible] = 0u;
+    if (ASSIGN == ASSIGN_BRUTE || state.masked == 0u)
+        return;
+    uint first = visible * state.mask_words;
+    for (uint word = first; word < first + state.mask_words; ++word)
+        light_masks[word] = 0u;
 }

@@ -3,7 +3,7 @@
 // Nodes are tested conservatively, lights by the test of brute force on the same numbers: the lists are the same.
 // The walk is depth-first and keeps no stack, for a place names its parent. The subtrees at TREE_CUT are dealt out
 // to the threads of a cluster in turn.
-// WRITE_LISTS 0 counts (pass count_lights), 1 writes (pass assign_lights).
+// WRITE_LISTS 0 counts (pass count_lights), 1 writes (pass assign_lights) where light bits did not fit.
 #version 460
 #include "lib/counters.glsl"
 #include "lib/light_tree.glsl"
@@ -19,7 +19,7 @@ void main()
     if (visible >= state.visible)
         return;
     CellBounds cell = cell_bounds(cell_of_linear(visible_clusters[visible]));
-    uint lights_there = state.tree_lights;
+    uint lights_there = state.candidates;
     uint cut = min(TREE_CUT, grid.tree_depth - 1u);
     uint root = gl_WorkGroupID.y;
     uint depth = cut, place = root, tests = 0u;
@@ -45,7 +45,7 @@ void main()
             place /= TREE_WIDTH;
         }
         if (depth == cut) {
-            root += grid.segment_count;
+            root += TREE_SPLIT;
             place = root;
         }
     }

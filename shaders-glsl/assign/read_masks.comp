@@ -1,6 +1,6 @@
-// Reads each segment of a list off its bits: WRITE_LISTS 0 its length, 1 its lights.
+// Reads each list off its bits: WRITE_LISTS 0 its length, 1 its lights.
 #version 460
-#include "generated/gpu_interface.glsl"
+#include "lib/list_builder.glsl"
 
 layout(local_size_x = ASSIGN_GROUP) in;
 
@@ -9,19 +9,17 @@ void main()
     uint visible = gl_GlobalInvocationID.x;
     if (visible >= state.visible)
         return;
-    uint list = visible * grid.segment_count + gl_WorkGroupID.y;
-    uint first = list * grid.mask_words;
+    uint first = visible * state.mask_words;
 #if WRITE_LISTS
-    uint slot = list_offsets[list];
-    for (uint word = 0u; word < grid.mask_words; ++word) {
-        uint light = gl_WorkGroupID.y * grid.segment_size + 32u * word;
-        for (uint bits = light_masks[first + word]; bits != 0u && slot < grid.index_capacity; bits &= bits - 1u)
-            light_indices[slot++] = light + uint(findLSB(bits));
-    }
+    uint slot = list_offsets[visible];
+    uint end = min(list_offsets[visible + 1u], grid.index_capacity);
+    for (uint word = 0u; slot < end; ++word)
+        for (uint bits = light_masks[first + word]; bits != 0u && slot < end; bits &= bits - 1u)
+            light_indices[slot++] = light_of_number(word * 32u + uint(findLSB(bits)));
 #else
     uint lights_met = 0u;
-    for (uint word = 0u; word < grid.mask_words; ++word)
-        lights_met += uint(bitCount(light_masks[first + word]));
-    segment_counts[list] = lights_met;
+    for (uint word = first; word < first + state.mask_words; ++word)
+        lights_met += uint(bitCount(light_masks[word]));
+    list_lengths[visible] = lights_met;
 #endif
 }

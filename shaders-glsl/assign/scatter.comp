@@ -1,50 +1,40 @@
-// Assignment from the lights' side: a thread takes one light through the cells that its bounds meet, skips those
-// that are not visible by whole words of bits, and tests the rest as brute force does.
-// WRITE_LISTS 0 counts (pass count_lights), 1 writes (pass assign_lights).
+// Scattering, second half: a workgroup tests a tile of the lights of a group against the group's visible clusters.
+// WRITE_LISTS 0 counts (pass count_lights), 1 writes (pass assign_lights) where light bits did not fit.
 #version 460
-#include "lib/cell_range.glsl"
 #include "lib/counters.glsl"
-#include "lib/intersect.glsl"
+#include "lib/light_tile.glsl"
 #include "lib/list_builder.glsl"
-#include "lib/visible.glsl"
 
 layout(local_size_x = ASSIGN_GROUP) in;
 
-// Bits of `word` from `first` to `last`, both linear clusters.
-uint visible_bits(uint word, uint first, uint last)
-{
-    uint bits = cluster_bits[word];
-    if (word == first >> 5)
-        bits &= 0xFFFFFFFFu << (first & 31u);
-    if (word == last >> 5)
-        bits &= 0xFFFFFFFFu >> (31u - (last & 31u));
-    return bits;
-}
+shared uint tile_numbers[ASSIGN_GROUP];
 
 void main()
 {
-    uint light = gl_GlobalInvocationID.x;
-    if (light >= grid.light_count)
-        return;
-    vec4 sphere = light_spheres[light];
-    CellRange range = cells_near(sphere);
-    if (is_empty(range))
-        return;
-    uvec3 low = uvec3(range.low), high = uvec3(range.high);
-    uint tests = 0u;
-    for (uint z = low.z; z <= high.z; ++z) {
-        for (uint y = low.y; y <= high.y; ++y) {
-            uint row = linear_cluster(uvec3(0u, y, z));
-            for (uint word = (row + low.x) >> 5; word <= (row + high.x) >> 5; ++word) {
-                for (uint bits = visible_bits(word, row + low.x, row + high.x); bits != 0u; bits &= bits - 1u) {
-                    uint cluster = word * 32u + uint(findLSB(bits));
-                    uint visible = visible_index(cluster);
-                    ++tests;
-                    if (visible != NO_CLUSTER && meets(cell_bounds(uvec3(cluster - row, y, z)), sphere))
-                        add_light(visible, light);
-                }
-            }
+    uint thread = gl_LocalInvocationID.x;
+    uint tile = gl_WorkGroupID.y * TILE_ROW + gl_WorkGroupID.x;
+    uint group = 0u, number = 0u, there = 0u;
+    if (tile < state.tiles) {
+        if (state.listed != 0u) {
+            group = tile_groups[tile];
+            there = min(groups[group].lights - (tile - groups[group].first_tile) * ASSIGN_GROUP, ASSIGN_GROUP);
+            number = thread < there ? group_lights[tile * ASSIGN_GROUP + thread] : 0u;
+        } else {
+            uint tiles = (state.candidates + ASSIGN_GROUP - 1u) / ASSIGN_GROUP;
+            group = tile / tiles;
+            uint first = tile % tiles * ASSIGN_GROUP;
+            there = min(state.candidates - first, ASSIGN_GROUP);
+            number = min(first + thread, state.candidates - 1u);
         }
     }
-    count(COUNTER_INTERSECTION_TESTS, tests);
+    tile_numbers[thread] = number;
+    fill_tile(light_spheres[candidates[number].light]);
+    uint visible = group * ASSIGN_GROUP + thread;
+    uvec2 met = lights_met(cell_of_visible(visible), there);
+    if (visible >= state.visible)
+        return;
+    for (uint half_tile = 0u; half_tile < 2u; ++half_tile)
+        for (uint bits = met[half_tile]; bits != 0u; bits &= bits - 1u)
+            add_light(visible, tile_numbers[half_tile * 32u + uint(findLSB(bits))]);
+    count(COUNTER_INTERSECTION_TESTS, there);
 }

@@ -1,6 +1,7 @@
-// Sorts each segment of a list by light: by insertion while it is short, else by heap, which needs no memory beside.
+// Sorts each list by light: by insertion while it is short, else by heap, which needs no memory beside. What was written
+// are the numbers of lights, which ascend as the lights do.
 #version 460
-#include "generated/gpu_interface.glsl"
+#include "lib/list_builder.glsl"
 
 layout(local_size_x = ASSIGN_GROUP) in;
 
@@ -54,11 +55,12 @@ void main()
     uint visible = gl_GlobalInvocationID.x;
     if (visible >= state.visible)
         return;
-    uint list = visible * grid.segment_count + gl_WorkGroupID.y;
-    uint first = min(list_offsets[list], grid.index_capacity);
-    uint end = min(list_offsets[list + 1u], grid.index_capacity);
+    uint first = min(list_offsets[visible], grid.index_capacity);
+    uint end = min(list_offsets[visible + 1u], grid.index_capacity);
     if (end - first <= SHORT)
         sort_by_insertion(first, end);
     else
         sort_by_heap(first, end - first);
+    for (uint i = first; i < end; ++i)
+        light_indices[i] = light_of_number(light_indices[i]);
 }

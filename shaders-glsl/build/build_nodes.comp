@@ -21,11 +21,11 @@ Hull hull_of_lights(uint first)
 {
     Hull hull = Hull(vec3(1e38), vec3(-1e38), 0.0);
     uint items = (grid.sort_passes - 1u & 1u) * grid.light_count;
-    for (uint i = first; i < min(first + TREE_WIDTH, state.tree_lights); ++i) {
-        uint light = sort_items[items + i].y;
-        vec4 sphere = light_spheres[light];
+    for (uint i = first; i < min(first + TREE_WIDTH, state.candidates); ++i) {
+        uint number = sort_items[items + i].y;
+        vec4 sphere = light_spheres[candidates[number].light];
         tree_spheres[i] = sphere;
-        tree_lights[i] = light;
+        tree_lights[i] = number;
         include(hull, sphere.xyz, sphere.xyz, sphere.w);
     }
     return hull;
@@ -34,7 +34,7 @@ Hull hull_of_lights(uint first)
 Hull hull_of_nodes(uint depth, uint first)
 {
     Hull hull = Hull(vec3(1e38), vec3(-1e38), 0.0);
-    for (uint place = first; place < first + TREE_WIDTH && first_light(depth, place) < state.tree_lights; ++place) {
+    for (uint place = first; place < first + TREE_WIDTH && first_light(depth, place) < state.candidates; ++place) {
         LightNode node = light_nodes[node_index(depth, place)];
         include(hull, node.centre - node.half_extent, node.centre + node.half_extent, node.radius);
     }
@@ -45,7 +45,7 @@ void main()
 {
     uint depth = push.step;
     uint place = gl_GlobalInvocationID.x;
-    if (first_light(depth, place) >= state.tree_lights)
+    if (first_light(depth, place) >= state.candidates)
         return;
     Hull hull;
     if (depth + 1u == grid.tree_depth)

@@ -2,7 +2,6 @@
 //
 // A key is the light's Morton code in the bounds of the grid, so that the tree's nodes are small.
 #version 460
-#include "lib/cell_range.glsl"
 #include "lib/sort.glsl"
 
 layout(local_size_x = ASSIGN_GROUP) in;
@@ -18,8 +17,6 @@ uint spread(uint x)
 
 uint light_key(vec4 sphere)
 {
-    if (is_empty(cells_near(sphere)))
-        return KEY_NONE;
     uvec3 at = uvec3(clamp((sphere.xyz - grid.bounds_low) * grid.bounds_scale, 0.0, 1023.0));
     uint morton = spread(at.x) | spread(at.y) << 1 | spread(at.z) << 2;
     return morton >> (30u - SORT_BITS * grid.sort_passes);
@@ -33,12 +30,10 @@ void main()
         return;
     for (uint digit = 0u; digit < SORT_DIGITS; ++digit)
         digit_counts[digit * blocks + block] = 0u;
-    uint end = min((block + 1u) * SORT_BLOCK, sort_length());
+    uint end = min((block + 1u) * SORT_BLOCK, state.candidates);
     for (uint i = block * SORT_BLOCK; i < end; ++i) {
         if (push.step == 0u)
-            sort_items[sort_source() + i] = uvec2(light_key(light_spheres[i]), i);
-        uint key = sort_items[sort_source() + i].x;
-        if (key != KEY_NONE)
-            ++digit_counts[digit_count(key, block)];
+            sort_items[sort_source() + i] = uvec2(light_key(light_spheres[candidates[i].light]), i);
+        ++digit_counts[digit_count(sort_items[sort_source() + i].x, block)];
     }
 }

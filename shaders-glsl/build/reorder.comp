@@ -9,10 +9,9 @@ void main()
     uint block = gl_GlobalInvocationID.x;
     if (block >= sort_blocks())
         return;
-    uint end = min((block + 1u) * SORT_BLOCK, sort_length());
+    uint end = min((block + 1u) * SORT_BLOCK, state.candidates);
     for (uint i = block * SORT_BLOCK; i < end; ++i) {
         uvec2 item = sort_items[sort_source() + i];
-        if (item.x != KEY_NONE)
-            sort_items[sort_target() + digit_counts[digit_count(item.x, block)]++] = item;
+        sort_items[sort_target() + digit_counts[digit_count(item.x, block)]++] = item;
     }
 }

@@ -1,34 +1,40 @@
 // Lists built in any order that still come out by ascending light.
 //
-// A list is a run of segments, one per range of lights. Few lights: a bit per light, set while counting; the lists
-// are read off the bits. Many: segments are counted, filled in any order, and each is then sorted; it is short.
+// Lights are numbered in ascending order: by themselves (brute force), or as candidates. Where `state.masked`, a list is
+// a row of bits, one a number, set while counting, and read off afterwards: no pair is tested twice. Bits of too many
+// clusters times lights do not fit: then lights are counted, written in any order, and each list is sorted.
 #pragma once
 
 #include "generated/gpu_interface.glsl"
 
+// The light behind a number.
+uint light_of_number(uint number)
+{
+#if ASSIGN == ASSIGN_BRUTE
+    return number;
+#else
+    return candidates[number].light;
+#endif
+}
+
 #if WRITE_LISTS
 
-// Puts a light into its segment of a list; the counts run down to zero as the segments fill up.
-void add_light(uint visible, uint light)
+// Puts a light into its list; the lengths run down to zero as lists fill up.
+void add_light(uint visible, uint number)
 {
-    uint list = visible * grid.segment_count + light / grid.segment_size;
-    uint slot = list_offsets[list] + atomicAdd(segment_counts[list], 0xFFFFFFFFu) - 1u;
+    uint slot = list_offsets[visible] + atomicAdd(list_lengths[visible], 0xFFFFFFFFu) - 1u;
     if (slot < grid.index_capacity)
-        light_indices[slot] = light;
+        light_indices[slot] = number;
 }
 
 #else
 
-void add_light(uint visible, uint light)
+void add_light(uint visible, uint number)
 {
-    uint segment = light / grid.segment_size;
-    uint list = visible * grid.segment_count + segment;
-    if (grid.mask_words > 0u) {
-        uint bit = light - segment * grid.segment_size;
-        atomicOr(light_masks[list * grid.mask_words + (bit >> 5)], 1u << (bit & 31u));
-    } else {
-        atomicAdd(segment_counts[list], 1u);
-    }
+    if (state.masked != 0u)
+        atomicOr(light_masks[visible * state.mask_words + (number >> 5)], 1u << (number & 31u));
+    else
+        atomicAdd(list_lengths[visible], 1u);
 }
 
 #endif

@@ -1,25 +1,20 @@
-// The one prefix sum: what its three dispatches (reduce, block_offsets, apply) share.
+// The one prefix sum: what its three dispatches (reduce, block_offsets, apply) share, and the one (single) that does all
+// where there are few blocks.
 //
 //   items ──reduce──> block_sums ──block_offsets──> block_sums (exclusive), total ──apply──> exclusive prefix per item
 //
-// A block is SCAN_BLOCK items; a workgroup of SCAN_GROUP threads takes one block, each thread consecutive items.
+// A block is SCAN_BLOCK items; a workgroup of SCAN_GROUP threads takes one block, each thread consecutive items. What the
+// items are, and what becomes of prefixes and total, is in lib/scan_items.glsl.
 #pragma once
 
-#include "generated/gpu_interface.glsl"
+#include "lib/scan_items.glsl"
 
 const uint SCAN_PER_THREAD = SCAN_BLOCK / SCAN_GROUP;
 
-#if SCAN_ITEMS == SCAN_VISIBILITY
-uint scan_length() { return grid.word_count; }
-uint scan_item(uint i) { return uint(bitCount(cluster_bits[i])); }
-#elif SCAN_ITEMS == SCAN_DIGITS
-#include "lib/sort.glsl"
-uint scan_length() { return SORT_DIGITS * sort_blocks(); }
-uint scan_item(uint i) { return digit_counts[i]; }
-#else
-uint scan_length() { return state.visible * grid.segment_count; }
-uint scan_item(uint i) { return segment_counts[i]; }
-#endif
+uint scan_blocks()
+{
+    return (scan_length() + SCAN_BLOCK - 1u) / SCAN_BLOCK;
+}
 
 shared uint scan_partial[SCAN_GROUP];
 
@@ -39,4 +34,31 @@ uint group_exclusive_sum(uint value, out uint total)
     uint inclusive = scan_partial[thread];
     barrier();
     return inclusive - value;
+}
+
+// The items of one thread of a block, 0 beyond the last; with their sum.
+uint load_items(uint first, out uint values[SCAN_PER_THREAD])
+{
+    uint sum = 0u;
+    for (uint k = 0u; k < SCAN_PER_THREAD; ++k) {
+        values[k] = first + k < scan_length() ? scan_item(first + k) : 0u;
+        sum += values[k];
+    }
+    return sum;
+}
+
+void emit_items(uint first, uint values[SCAN_PER_THREAD], uint prefix)
+{
+    for (uint k = 0u; k < SCAN_PER_THREAD; ++k) {
+        if (first + k < scan_length())
+            emit(first + k, prefix);
+        prefix += values[k];
+    }
+}
+
+// The sum of what was carried here and a total; all ones once that is more than 32 bits hold: such a total must not wrap
+// to one that seems to fit.
+uint carry(uint carried, uint total)
+{
+    return carried + total < carried ? 0xFFFFFFFFu : carried + total;
 }

@@ -6,12 +6,9 @@ layout(local_size_x = SCAN_GROUP) in;
 
 void main()
 {
-    uint first = gl_WorkGroupID.x * SCAN_BLOCK + gl_LocalInvocationID.x * SCAN_PER_THREAD;
-    uint sum = 0u;
-    for (uint k = 0u; k < SCAN_PER_THREAD; ++k)
-        sum += first + k < scan_length() ? scan_item(first + k) : 0u;
+    uint values[SCAN_PER_THREAD];
     uint total;
-    group_exclusive_sum(sum, total);
+    group_exclusive_sum(load_items(gl_GlobalInvocationID.x * SCAN_PER_THREAD, values), total);
     if (gl_LocalInvocationID.x == 0u)
         block_sums[gl_WorkGroupID.x] = total;
 }

@@ -34,13 +34,13 @@ pub fn clear_counters(r: &mut Recorder, frame: &Frame) {
 }
 
 /// Sizes of what [`copy_counted`] copies of one clustering, in its order; 32-bit words.
-pub fn counted_words(visible: u32, segments: u32, indices: u32, lights: u32) -> [u64; 6] {
+pub fn counted_words(visible: u32, indices: u32, lights: u32) -> [u64; 6] {
     [
         2 * COUNTER_COUNT as u64,
         u64::from(lights) + 1,
         u64::from(visible),
         u64::from(visible),
-        u64::from(visible) * u64::from(segments) + 1,
+        u64::from(visible) + 1,
         u64::from(indices),
     ]
 }

@@ -58,7 +58,8 @@ pub struct BenchRow {
 /// The slot that benchmarked frames use: each is read before the next begins.
 const SLOT: usize = 0;
 /// Stages whose times make a row's.
-const STAGES: [&str; 4] = ["build_hierarchy", "count_lights", "light_offsets", "assign_lights"];
+const STAGES: [&str; 5] =
+    ["cull_lights", "build_hierarchy", "count_lights", "light_offsets", "assign_lights"];
 
 /// Times `bench` by the config's methods, scene, recording and resolution; rows come as soon as they are measured.
 ///
@@ -144,6 +145,7 @@ impl Case<'_> {
         let mode = Mode { lights: self.lights.len() as u32, capacities, assigner, test, counting };
         let mut engine =
             Engine::new(session, self.config, self.method, std::slice::from_ref(self.plan), mode)?;
+        engine.shaded = false;
         loop {
             self.render(session, &mut engine)?;
             if !engine.grow_if_needed(session, SLOT, self.plan.frame)? {

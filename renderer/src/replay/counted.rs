@@ -3,7 +3,6 @@
 use super::engine::Engine;
 use super::session::Session;
 use crate::Result;
-use crate::clustering::segments;
 use crate::gpu_interface::{ClusteringState, Counter};
 use crate::measure::{ClusterLists, ClusterRecord, ClusteringCounts};
 use crate::passes::readback;
@@ -30,8 +29,7 @@ impl Counted {
         (slot, frame, clustering): (usize, u32, usize),
         (state, lights): (ClusteringState, u32),
     ) -> Result<Self> {
-        let segments = segments(lights).0;
-        let words = readback::counted_words(state.visible, segments, state.index_total, lights);
+        let words = readback::counted_words(state.visible, state.index_total, lights);
         let size = 4 * words.iter().sum::<u64>();
         let usage = vk::BufferUsageFlags::TRANSFER_DST;
         let target = Buffer::new(&session.context, "counter readback", size, usage, Memory::Readback)?;
@@ -45,7 +43,6 @@ impl Counted {
                 offset += 4 * words;
                 data
             });
-        let offsets = offsets.into_iter().step_by(segments as usize).collect();
         let lists = ClusterLists { frame, clustering: clustering as u32, offsets, indices };
         Ok(Self { state, counters, lights_per_fragment, visible_clusters, visible_fragments, lists })
     }

@@ -36,6 +36,8 @@ pub struct Engine {
     staging: [Buffer; SLOTS],
     staged: Vec<LightData>,
     clusterings: Vec<Clustering>,
+    /// Whether frames are shaded; true at first.
+    pub shaded: bool,
     /// Its frames' stages.
     pub tree: ScopeTree,
     /// What was grown, in order.
@@ -122,6 +124,7 @@ impl Engine {
             sizes,
             staged: Vec::with_capacity(mode.lights as usize),
             clusterings: vec![],
+            shaded: true,
             tree: ScopeTree::default(),
             growth: vec![],
         };
@@ -217,6 +220,7 @@ impl Engine {
             clustered: self.method != MethodSpec::AllLights,
             marking: self.marking,
             assigner: self.assigner,
+            shaded: self.shaded,
             lights: &self.lights,
             light_staging: &self.staging[slot],
             light_count: self.staged.len() as u32,

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::config::Lighting;
+use crate::cpu;
 use crate::geometry::{ClusterSpace, Frustum, Grid};
 use crate::methods::{Sharing, Space};
 use crate::passes::{assign, depth, readback, scan};
@@ -9,7 +10,6 @@ use crate::rain::{Rain, RainParameters};
 use crate::scene::Scene;
 use crate::scene::procedural::by_name;
 use crate::views::{Pose, View};
-use crate::{clustering, cpu};
 use glam::{DQuat, DVec3};
 
 const PERSP: MethodSpec =
@@ -180,15 +180,13 @@ fn visible_clusters_beyond_the_capacity_are_counted() {
 
 #[test]
 fn list_offsets_equal_their_twin_at_odd_sizes() {
-    // 1000 lights make four segments a list.
-    for clusters in [1u32, 63, 255, 256, 257, 1025, 70_000] {
+    for clusters in [1u32, 63, 255, 256, 257, 1025, 16_384, 16_385, 70_000] {
         let room = Capacities { visible_clusters: clusters, light_indices: 16 };
         let mut bench = Bench::new(ORTHO, box_grid([clusters, 1, 1]), &lights(1000), room);
-        let (segments, _) = clustering::segments(1000);
         let state = bench.compact(&random_bits(u64::from(clusters), 1, 1));
         let mut random = noise(u64::from(clusters));
-        let counts: Vec<u32> = (0..state.visible * segments).map(|_| random() % 100).collect();
-        bench.upload(|c| &c.buffers.segment_counts, &counts);
+        let counts: Vec<u32> = (0..state.visible).map(|_| random() % 100).collect();
+        bench.upload(|c| &c.buffers.list_lengths, &counts);
         bench.run(|r, frame| {
             scan::light_offsets(r, frame, 0);
             readback::states(r, frame);

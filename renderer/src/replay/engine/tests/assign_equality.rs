@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::config::{Assign, Test};
-use crate::passes::hierarchy;
+use crate::passes::{cull_lights, hierarchy};
 
-/// What a way of assignment made of one case: offsets of all segments, then the lists.
+/// What a way of assignment made of one case: offsets of the lists, then the lists.
 #[derive(PartialEq, Eq)]
 struct Lists {
     offsets: Vec<u32>,
@@ -27,16 +27,19 @@ fn lists_of(
         .map(|lights| {
             bench.engine.write_host_data(&mut bench.session, 0, &plan, lights);
             bench.compact(bits);
-            bench.lists(assign, lights.len() as u32)
+            bench.lists(assign)
         })
         .collect()
 }
 
 impl Bench {
-    fn lists(&mut self, assign: Assign, lights: u32) -> Lists {
+    fn lists(&mut self, assign: Assign) -> Lists {
         self.run(|r, frame| {
             crate::passes::lights::record(r, frame);
             assign::transform_lights(r, frame, 0);
+            if assign != Assign::Brute {
+                cull_lights::cull_lights(r, frame, 0);
+            }
             if assign == Assign::Hierarchy {
                 hierarchy::build_hierarchy(r, frame, 0);
             }
@@ -46,9 +49,8 @@ impl Bench {
             readback::states(r, frame);
         });
         let state = self.engine.states(&self.session, 0)[0];
-        let segments = state.visible * clustering::segments(lights).0;
         Lists {
-            offsets: self.download(|c| &c.buffers.list_offsets, segments as usize + 1),
+            offsets: self.download(|c| &c.buffers.list_offsets, state.visible as usize + 1),
             indices: self.download(|c| &c.buffers.light_indices, state.index_total.max(1) as usize),
         }
     }

@@ -49,10 +49,9 @@ impl Case {
         });
         let state = bench.engine.states(&bench.session, 0)[0];
         assert!(state.index_total > 1000, "the case assigns next to nothing");
-        let segments = clustering::segments(self.lights.len() as u32).0 as usize;
-        let offsets = bench.download(|c| &c.buffers.list_offsets, self.visible.len() * segments + 1);
+        let offsets = bench.download(|c| &c.buffers.list_offsets, self.visible.len() + 1);
         let indices = bench.download(|c| &c.buffers.light_indices, state.index_total as usize);
-        let at = |list: usize| offsets[list * segments] as usize;
+        let at = |list: usize| offsets[list] as usize;
         (0..self.visible.len()).map(|list| indices[at(list)..at(list + 1)].to_vec()).collect()
     }
 }

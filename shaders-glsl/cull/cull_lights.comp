@@ -1,0 +1,27 @@
+// Which lights may meet a visible cluster: those whose range of cells meets a block that holds one. A thread takes the
+// lights of a word of bits, which are then ranked as those of clusters are.
+#version 460
+#include "lib/blocks.glsl"
+#include "lib/cell_range.glsl"
+
+layout(local_size_x = ASSIGN_GROUP) in;
+
+bool may_meet_visible(vec4 sphere)
+{
+    CellRange range = cells_near(sphere);
+    if (is_empty(range))
+        return false;
+    return may_hold_visible(uvec3(range.low) / grid.block_size, uvec3(range.high) / grid.block_size);
+}
+
+void main()
+{
+    uint word = gl_GlobalInvocationID.x;
+    uint first = word * 32u;
+    if (first >= grid.light_count)
+        return;
+    uint bits = 0u;
+    for (uint light = first; light < min(first + 32u, grid.light_count); ++light)
+        bits |= uint(may_meet_visible(light_spheres[light])) << (light - first);
+    light_bits[word] = bits;
+}

@@ -1,0 +1,38 @@
+// Marks the blocks that hold visible clusters; a workgroup takes a group of them. For scatter it also makes the group,
+// with the range of its cells.
+#version 460
+#include "lib/blocks.glsl"
+#include "lib/cluster_space.glsl"
+#include "lib/halves.glsl"
+
+layout(local_size_x = ASSIGN_GROUP) in;
+
+shared uint lowest[3], highest[3];
+
+void main()
+{
+    uint thread = gl_LocalInvocationID.x;
+    if (thread < 3u) {
+        lowest[thread] = 0xFFFFFFFFu;
+        highest[thread] = 0u;
+    }
+    barrier();
+    uint visible = gl_GlobalInvocationID.x;
+    if (visible < state.visible) {
+        uvec3 cell = cell_of_linear(visible_clusters[visible]);
+        mark_block(cell / grid.block_size);
+        for (uint axis = 0u; axis < 3u; ++axis) {
+            atomicMin(lowest[axis], cell[axis]);
+            atomicMax(highest[axis], cell[axis]);
+        }
+    }
+    barrier();
+#if ASSIGN == ASSIGN_SCATTER
+    if (thread == 0u) {
+        uvec3 cells;
+        for (uint axis = 0u; axis < 3u; ++axis)
+            cells[axis] = pack_range(lowest[axis], highest[axis]);
+        groups[gl_WorkGroupID.x] = ClusterGroup(cells, 0u, 0u, 0u);
+    }
+#endif
+}
