@@ -263,10 +263,16 @@ fn ways_and_tests_are_one_or_several_and_serve_their_methods() {
     let both = (vec![Assign::Scatter, Assign::Auto], vec!["hs".to_owned(), "sat-epv".to_owned()]);
     assert_eq!(ways(r#"{"assign": ["scatter", "auto"], "test": ["hs", "sat-vpe"]}"#), both);
     for (text, expected) in [
-        (r#"{"test": "hs+satn"}"#, "line 1, column 10: test: `hs+satn` is no test of sphere against cluster; did"),
+        (
+            r#"{"test": "hs+satn"}"#,
+            "line 1, column 10: test: `hs+satn` is no test of sphere against cluster; did",
+        ),
         (r#"{"test": ["hs", 3]}"#, "line 1, column 17: test[1]: invalid type: integer `3`"),
         (r#"{"test": ["hs", "hs"]}"#, "line 1, column 10: test: hs is named twice"),
-        (r#"{"assign": "brut"}"#, "line 1, column 12: assign: `brut` is no way of assignment; did you mean `brute`?"),
+        (
+            r#"{"assign": "brut"}"#,
+            "line 1, column 12: assign: `brut` is no way of assignment; did you mean `brute`?",
+        ),
         (r#"{"assign": []}"#, "line 1, column 12: assign: an empty list: name at least one"),
     ] {
         assert!(refusal(text).starts_with(expected), "{}", refusal(text));
