@@ -10,7 +10,12 @@ use std::path::Path;
 const TABLES: [&str; 2] = ["clusterings.csv", "histograms.csv"];
 
 pub(super) fn join(a: &Path, b: &Path) -> Result<Comparison> {
-    let [runs_a, runs_b] = [find_distinct(a)?, find_distinct(b)?];
+    let [mut runs_a, mut runs_b] = [read::find_runs(a)?, read::find_runs(b)?];
+    if twins(&runs_a).or(twins(&runs_b)).is_some() {
+        runs_a.iter_mut().chain(&mut runs_b).for_each(RunEntry::tell_by_way);
+    }
+    check_distinct(a, &runs_a)?;
+    check_distinct(b, &runs_b)?;
     let twin = |run: &RunEntry, others: &[RunEntry]| others.iter().position(|o| o.identity == run.identity);
     let mut runs = vec![];
     let mut missing_in_b = vec![];
@@ -25,22 +30,22 @@ pub(super) fn join(a: &Path, b: &Path) -> Result<Comparison> {
     Ok(Comparison { a: result_set(a, &runs_a), b: result_set(b, &runs_b), runs, missing_in_a, missing_in_b })
 }
 
-fn find_distinct(directory: &Path) -> Result<Vec<RunEntry>> {
-    let runs = read::find_runs(directory)?;
+/// Two runs that were asked to do the same.
+fn twins(runs: &[RunEntry]) -> Option<[&RunEntry; 2]> {
     let mut seen = BTreeMap::new();
-    for run in &runs {
-        if let Some(earlier) = seen.insert(&run.identity, run) {
-            return Err(Error::file(
-                directory,
-                format!(
-                    "{} and {} are runs of one configuration: compare directories in which each has one run",
-                    earlier.directory.display(),
-                    run.directory.display()
-                ),
-            ));
-        }
-    }
-    Ok(runs)
+    runs.iter().find_map(|run| seen.insert(&run.identity, run).map(|earlier| [earlier, run]))
+}
+
+fn check_distinct(directory: &Path, runs: &[RunEntry]) -> Result<()> {
+    let Some([earlier, run]) = twins(runs) else { return Ok(()) };
+    Err(Error::file(
+        directory,
+        format!(
+            "{} and {} are runs of one configuration: compare directories in which each has one run",
+            earlier.directory.display(),
+            run.directory.display()
+        ),
+    ))
 }
 
 fn result_set(directory: &Path, runs: &[RunEntry]) -> ResultSet {

@@ -13,6 +13,10 @@ use std::path::{Path, PathBuf};
 const IDENTITY: [&str; 7] =
     ["resolution", "msaa", "attenuation", "marking", "displaced_volume", "lights_file", "scene_lights"];
 
+/// How lists were built, and what decided who is on them: beside the others, these tell the runs of a sweep apart. Where
+/// they need not, runs are joined across them: so two ways or tests are compared.
+const WAY: [&str; 2] = ["assign", "test"];
+
 /// What a run was asked to do: comparable, and equal for runs that are to be compared.
 pub(super) type Identity = Vec<String>;
 
@@ -20,6 +24,8 @@ pub(super) type Identity = Vec<String>;
 #[derive(Debug)]
 pub(super) struct RunEntry {
     pub identity: Identity,
+    /// By which of [`WAY`].
+    pub way: [String; 2],
     pub directory: PathBuf,
     /// What tells it from other runs, for people.
     pub label: String,
@@ -93,11 +99,20 @@ fn read_entry(directory: &Path) -> Result<RunEntry> {
         .map_err(|error| Error::file(&path, format!("is no manifest of a run: {error}")))?;
     Ok(RunEntry {
         identity: identity(&run),
+        way: WAY.map(|field| run.config.get(field).and_then(Value::as_str).unwrap_or("?").to_owned()),
         label: label(&run),
         directory: directory.to_owned(),
         program: format!("manylight {} ({:.12})", run.version, run.git_revision),
         device: format!("{} ({})", run.device.name, run.device.driver),
     })
+}
+
+impl RunEntry {
+    /// Counts the way among what the run was asked to do.
+    pub fn tell_by_way(&mut self) {
+        self.identity.extend(self.way.clone());
+        self.label = format!("{}, {}", self.label, self.way.join(", "));
+    }
 }
 
 fn identity(run: &RunFile) -> Identity {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 /// A result directory under construction: counters of two frames, times of two runs.
 struct Fixture {
     method: &'static str,
+    test: &'static str,
     scene_sha: &'static str,
     out: &'static str,
     frames: Vec<(u32, u64)>,
@@ -17,6 +18,7 @@ impl Default for Fixture {
     fn default() -> Self {
         Self {
             method: "indi-persp-64",
+            test: "hs",
             scene_sha: "aaaaaaaaaaaa",
             out: "one",
             frames: vec![(0, 100), (40, 50)],
@@ -33,7 +35,8 @@ impl Fixture {
         let manifest = serde_json::json!({
             "format": "manylight.run/1", "version": "0.1.0", "git_revision": "abc", "method": self.method,
             "lighting": { "count": 1000, "intensity": 100.0, "cutoff": 0.5, "r0": 0.1 },
-            "config": { "resolution": [64, 40], "msaa": 1, "marking": "depth", "attenuation": "phy", "out": self.out },
+            "config": { "resolution": [64, 40], "msaa": 1, "marking": "depth", "attenuation": "phy", "out": self.out,
+                "assign": "brute", "test": self.test },
             "scene": { "name": "street", "sha256": self.scene_sha },
             "recording": { "name": "bistro", "sha256": "bbbbbbbbbbbb" },
             "device": { "name": "llvmpipe", "driver": "Mesa" },
@@ -82,6 +85,22 @@ fn equal_runs_are_joined_wherever_they_lie_and_whatever_their_output_was_called(
     let metrics: Vec<&str> = same.runs[0].counters.iter().map(|counter| counter.metric.as_str()).collect();
     assert_eq!(metrics, ["visible_clusters", "clusterings.csv", "histograms.csv"]);
     assert!(same.to_string().contains("counters: all 3 equal in 2 frames"), "{same}");
+}
+
+#[test]
+fn runs_are_joined_by_test_where_a_set_has_several_and_across_tests_where_not() {
+    let with = |test| Fixture { test, ..Fixture::default() };
+    assert_eq!(compare_runs(&with("hs"), &with("exact")).runs.len(), 1);
+
+    let root = tempfile::tempdir().unwrap();
+    let [a, b] = ["a", "b"].map(|name| root.path().join(name));
+    for (set, tests) in [(&a, ["hs", "exact"]), (&b, ["exact", "sat-n"])] {
+        tests.iter().for_each(|test| with(test).write(set.join(test)));
+    }
+    let comparison = compare(&a, &b).unwrap();
+    assert_eq!(comparison.runs.len(), 1);
+    assert!(comparison.runs[0].run.ends_with(", brute, exact"), "{}", comparison.runs[0].run);
+    assert!(comparison.missing_in_a[0].ends_with("sat-n") && comparison.missing_in_b[0].ends_with("hs"));
 }
 
 #[test]

@@ -195,6 +195,11 @@ fn a_resolved_configuration_is_a_configuration_file_again() {
         },
         Config { lights: Vec::new(), lights_file: Some("l.csv".into()), msaa: 4, ..Config::default() },
         Config {
+            assign: vec![Assign::Auto, Assign::Brute],
+            test: vec!["hs+sat-n".parse().unwrap(), Test::Auto],
+            ..Config::default()
+        },
+        Config {
             shaders: Some("glsl".into()),
             device: Some("0".into()),
             scopes: Scopes::Frame,
@@ -219,6 +224,8 @@ fn values_that_no_parser_saw_are_checked_too() {
             ..Config::default()
         },
         Config { visible_cluster_capacity: 0, ..Config::default() },
+        Config { assign: vec![], ..Config::default() },
+        Config { test: vec![Test::Auto, Test::Auto], ..Config::default() },
         Config { device: Some(String::new()), ..Config::default() },
         Config { shaders: Some(PathBuf::new()), ..Config::default() },
     ];
@@ -242,6 +249,42 @@ fn bundled_configurations_say_what_they_should() {
         ..Config::default()
     };
     assert_eq!(tuned, expected);
+}
+
+#[test]
+fn ways_and_tests_are_one_or_several_and_serve_their_methods() {
+    let ways = |text: &str| {
+        let config = resolved(&[text]).unwrap();
+        (config.assign, config.test.iter().map(ToString::to_string).collect::<Vec<_>>())
+    };
+    let brute = || vec![Assign::Brute];
+    assert_eq!(ways("{}"), (brute(), vec!["auto".to_owned()]));
+    assert_eq!(ways(r#"{"test": "exact"}"#), (brute(), vec!["exact".to_owned()]));
+    let both = (vec![Assign::Scatter, Assign::Auto], vec!["hs".to_owned(), "sat-epv".to_owned()]);
+    assert_eq!(ways(r#"{"assign": ["scatter", "auto"], "test": ["hs", "sat-vpe"]}"#), both);
+    for (text, expected) in [
+        (
+            r#"{"test": "hs+satn"}"#,
+            "line 1, column 10: test: `hs+satn` is no test of sphere against cluster; did",
+        ),
+        (r#"{"test": ["hs", 3]}"#, "line 1, column 17: test[1]: invalid type: integer `3`"),
+        (r#"{"test": ["hs", "hs"]}"#, "line 1, column 10: test: hs is named twice"),
+        (
+            r#"{"assign": "brut"}"#,
+            "line 1, column 12: assign: `brut` is no way of assignment; did you mean `brute`?",
+        ),
+        (r#"{"assign": []}"#, "line 1, column 12: assign: an empty list: name at least one"),
+    ] {
+        assert!(refusal(text).starts_with(expected), "{}", refusal(text));
+    }
+}
+
+#[test]
+fn the_bundled_sweep_of_tests_is_of_all_tuned_methods() {
+    let config = Config::resolve(Some(&repository("configs/tests.json")), Layer::default()).unwrap();
+    let parts = crate::sweep::parts(&config).unwrap();
+    assert_eq!((parts.len(), parts[0].runs.len()), (1, 6 * 3 * 4));
+    assert_eq!(parts[0].runs[3].name, "indi-persp-64_1000_exact");
 }
 
 #[test]

@@ -66,6 +66,10 @@ pub struct RunMeans {
     pub method: MethodSpec,
     /// Name of the lighting: see [`super::PlannedRun::lighting`].
     pub lighting: String,
+    /// The way of assignment, empty where the sweep has one.
+    pub assign: String,
+    /// The test of light against cluster, empty where the sweep has one.
+    pub test: String,
     /// How many frames the means are over.
     pub frames: usize,
     /// The means.
@@ -82,6 +86,12 @@ pub struct SummaryRow {
     pub method: String,
     /// The lighting's name.
     pub lighting: String,
+    /// The way of assignment, empty where the sweep has one.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub assign: String,
+    /// The test of light against cluster, empty where the sweep has one.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub test: String,
     /// How many frames the means are over.
     pub frames: usize,
     /// The means.
@@ -107,6 +117,8 @@ impl Summary {
             scene: String::new(),
             method: run.method,
             lighting: run.lighting.to_owned(),
+            assign: String::new(),
+            test: String::new(),
             frames: run.counts.len(),
             means: Values::mean(run),
         });
@@ -121,6 +133,8 @@ impl Summary {
                 scene: run.scene.clone(),
                 method: run.method.to_string(),
                 lighting: run.lighting.clone(),
+                assign: run.assign.clone(),
+                test: run.test.clone(),
                 frames: run.frames,
                 means: run.means,
                 reference: reference.method.to_string(),
@@ -130,29 +144,37 @@ impl Summary {
         Self { rows: rows.collect() }
     }
 
-    /// Whether rows are told apart by their scene.
-    fn several_scenes(&self) -> bool {
-        self.rows.iter().any(|row| !row.scene.is_empty())
+    /// The columns that name rows: those of axes that tell rows apart, and the method and its lighting always.
+    fn naming_columns(&self) -> Vec<NamingColumn> {
+        let all: [NamingColumn; 5] = [
+            ("scene", |row| &row.scene),
+            ("method", |row| &row.method),
+            ("lighting", |row| &row.lighting),
+            ("assign", |row| &row.assign),
+            ("test", |row| &row.test),
+        ];
+        let needed = |(name, cell): &NamingColumn| {
+            matches!(*name, "method" | "lighting") || self.rows.iter().any(|row| !cell(row).is_empty())
+        };
+        all.into_iter().filter(needed).collect()
     }
 
-    /// Writes the table as CSV: means, then the reference, then ratios; where there are several scenes, the scene
-    /// before all.
+    /// Writes the table as CSV: what names a row, means, then the reference, then ratios.
     ///
     /// # Errors
     /// The writer fails.
     pub fn write_csv(&self, out: impl Write) -> io::Result<()> {
         let mut csv = csv::Writer::from_writer(out);
-        let several = self.several_scenes();
-        let scene = |name: &str| several.then(|| name.to_owned());
-        csv.write_record(scene("scene").into_iter().chain(CSV_HEADER.map(str::to_owned)))?;
+        let naming = self.naming_columns();
+        csv.write_record(naming.iter().map(|(name, _)| *name).chain(CSV_HEADER))?;
         for row in &self.rows {
             let (means, ratios) = (&row.means, &row.ratios);
-            let head = [row.method.clone(), row.lighting.clone(), row.frames.to_string()];
             let counts = [means.visible_clusters, means.light_indices, means.lighting_computations];
             let times = [means.clustering_ms, means.shading_ms, means.total_ms];
-            let cells = scene(&row.scene)
-                .into_iter()
-                .chain(head)
+            let cells = naming
+                .iter()
+                .map(|(_, cell)| cell(row).clone())
+                .chain([row.frames.to_string()])
                 .chain(counts.map(|count| format!("{count:.3}")))
                 .chain(times.map(optional_ms))
                 .chain([row.reference.clone()])
@@ -163,9 +185,10 @@ impl Summary {
     }
 }
 
-const CSV_HEADER: [&str; 16] = [
-    "method",
-    "lighting",
+/// Its name in CSV, and its cell.
+type NamingColumn = (&'static str, fn(&SummaryRow) -> &String);
+
+const CSV_HEADER: [&str; 14] = [
     "frames",
     "visible_clusters",
     "light_indices",
@@ -182,7 +205,7 @@ const CSV_HEADER: [&str; 16] = [
     "total_ms_ratio",
 ];
 
-/// Index of the run that the ratios of `of` are to.
+/// Index of the run that the ratios of `of` are to. Where there are several ways or tests, it is by the first.
 fn reference(runs: &[RunMeans], of: &RunMeans) -> usize {
     let find = |wanted: &dyn Fn(&RunMeans) -> bool| {
         runs.iter().position(|run| run.scene == of.scene && run.lighting == of.lighting && wanted(run))
@@ -261,11 +284,8 @@ impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut table = Table::new();
         table.load_preset(TABLE_LINES).set_content_arrangement(ContentArrangement::Disabled);
-        let several = self.several_scenes();
-        let scene = |name: &str| several.then(|| name.to_owned());
+        let naming = self.naming_columns();
         let header = [
-            "method",
-            "lights",
             "visible\nclusters",
             "light\nindices",
             "lighting\ncomputations",
@@ -273,15 +293,16 @@ impl fmt::Display for Summary {
             "shading\nms",
             "total\nms",
         ];
-        table.set_header(scene("scene").into_iter().chain(header.map(str::to_owned)));
+        let names = naming.iter().map(|(name, _)| if *name == "lighting" { "lights" } else { *name });
+        table.set_header(names.chain(header));
         for row in &self.rows {
             let values = row.means.list().into_iter().zip(row.ratios.list()).enumerate();
             let cells = values.map(|(column, (value, ratio))| cell(value, ratio, column >= 3));
-            let head = scene(&row.scene).into_iter().chain([row.method.clone(), row.lighting.clone()]);
-            table.add_row(head.chain(cells));
+            table.add_row(naming.iter().map(|(_, cell)| cell(row).clone()).chain(cells));
         }
-        for column in table.column_iter_mut().skip(if several { 2 } else { 1 }) {
-            column.set_cell_alignment(CellAlignment::Right);
+        for (column, index) in table.column_iter_mut().zip(0..) {
+            let is_name = naming.get(index).is_some_and(|(name, _)| *name != "lighting");
+            column.set_cell_alignment(if is_name { CellAlignment::Left } else { CellAlignment::Right });
         }
         for line in table.lines() {
             writeln!(f, "{}", line.trim_end())?;
@@ -299,8 +320,11 @@ impl Summary {
                 names.push(&row.reference);
             }
         }
-        let several = self.rows.iter().any(|row| row.lighting != self.rows[0].lighting);
-        names.join(" and ") + if several { " under the same lights" } else { "" }
+        let several =
+            |cell: fn(&SummaryRow) -> &String| self.rows.iter().any(|row| cell(row) != cell(&self.rows[0]));
+        let lights = if several(|row| &row.lighting) { " under the same lights" } else { "" };
+        let ways = several(|row| &row.assign) || several(|row| &row.test);
+        names.join(" and ") + lights + if ways { ", by its first way and test" } else { "" }
     }
 }
 

@@ -1,6 +1,6 @@
 use super::testing::{counts, times, view};
 use super::*;
-use crate::config::{Config, Lighting};
+use crate::config::{Assign, Config, Lighting};
 use crate::measure::{Capacities, GrowthEvent};
 use crate::measure::{FrameCounts, FrameTimes};
 use std::collections::BTreeMap;
@@ -140,6 +140,28 @@ fn summary_csv_has_means_and_ratios() {
 }
 
 #[test]
+fn summary_names_ways_and_tests_where_runs_differ_in_them() {
+    let means = |test: &str, light_indices| RunMeans {
+        scene: String::new(),
+        method: "indi-persp-64".parse().unwrap(),
+        lighting: "1000".into(),
+        assign: String::new(),
+        test: test.into(),
+        frames: 1,
+        means: Values { light_indices, ..Values::default() },
+    };
+    let summary = Summary::from_means(&[means("hs", 8.0), means("exact", 2.0)]);
+    let text = csv_text(|out| summary.write_csv(out));
+    assert!(text.starts_with("method,lighting,test,frames,visible_clusters,"), "{text}");
+    assert!(text.contains("\nindi-persp-64,1000,exact,1,0.000,2.000,"), "{text}");
+    assert_eq!(summary.rows[1].ratios.light_indices, Some(0.25));
+    assert!(
+        summary.to_string().ends_with("the ratio to indi-persp-64, by its first way and test."),
+        "{summary}"
+    );
+}
+
+#[test]
 fn summary_table_is_narrow_and_says_what_ratios_are_to() {
     let frame = FrameCounts { lighting_computations: 9_876_543_210, ..counts(0) };
     let (counts, times) = ([frame], [times(0, 0, 12_345.678)]);
@@ -170,6 +192,19 @@ fn runs_are_named_by_method_and_by_lighting_where_needed() {
     let planned = planned_runs(&config);
     assert_eq!((planned.len(), planned[1].name.as_str()), (12, "encl-persp-64_1000"));
     assert_eq!(planned[6].lighting, "7");
+    let several = Config {
+        methods: vec!["indi-persp-64".parse().unwrap(), "all-lights".parse().unwrap()],
+        assign: vec![Assign::Hierarchy, Assign::Brute],
+        test: ["auto", "hs+sat-n"].map(|test| test.parse().unwrap()).to_vec(),
+        ..config
+    };
+    let planned: Vec<String> = planned_runs(&several).into_iter().map(|run| run.name).collect();
+    assert_eq!(planned.len(), 10);
+    assert_eq!(planned[0], "indi-persp-64_1000_hierarchy_hs");
+    assert_eq!(planned[3], "indi-persp-64_1000_brute_hs+sat-n");
+    assert_eq!(planned[4], "all-lights_1000");
+    let config = Config { lights: vec![thousand], test: several.test, ..Config::default() };
+    assert_eq!(planned_runs(&config)[1].name, "indi-persp-64_hs+sat-n");
     let config = Config { lights: Vec::new(), scene_lights: true, ..Config::default() };
     assert_eq!(planned_runs(&config)[0].lighting, "scene");
 }

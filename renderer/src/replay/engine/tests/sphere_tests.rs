@@ -1,5 +1,6 @@
 //! The tests of light against cluster on the device: equal to their CPU twins, and no light is ever lost.
 
+use super::assign_equality::random_lights;
 use super::*;
 use crate::config::Test;
 use crate::geometry::{CellTest, SphereTest};
@@ -87,8 +88,9 @@ fn orthographic_lists_equal_their_twin() {
 #[test]
 fn lists_of_all_tests_equal_their_twins() {
     for test in TESTS.map(|name| name.parse().unwrap()) {
-        lists_equal_their_twin(perspective(), test, lights(700));
-        lists_equal_their_twin(orthographic(), test, lights(700));
+        let lights = || random_lights(1000, 9, 15.0, |u| 1.0 + 4.0 * u);
+        lists_equal_their_twin((PERSP, frustum_grid([7, 6, 13])), test, lights());
+        lists_equal_their_twin((ORTHO, box_grid([11, 9, 13])), test, lights());
     }
 }
 
@@ -117,7 +119,7 @@ fn touching_lights(grid: &Grid, visible: &[u32], count: u32) -> Vec<(u32, PointL
 fn no_touching_light_is_lost(method: MethodSpec, grid: Grid) {
     let visible = Case::new(grid, vec![]).visible;
     let (touched, lights): (Vec<u32>, Vec<PointLight>) =
-        touching_lights(&grid, &visible, 6000).into_iter().unzip();
+        touching_lights(&grid, &visible, 4000).into_iter().unzip();
     let case = Case::new(grid, lights);
     for test in TESTS.map(|name| name.parse().unwrap()) {
         let lists = case.lists(method, test);
@@ -130,12 +132,12 @@ fn no_touching_light_is_lost(method: MethodSpec, grid: Grid) {
 
 #[test]
 fn no_touching_light_is_lost_in_perspective_grids() {
-    no_touching_light_is_lost(PERSP, frustum_grid([13, 9, 21]));
+    no_touching_light_is_lost(PERSP, frustum_grid([7, 6, 13]));
     // Few, large clusters: the lengths that are projected are as long as the grid.
     no_touching_light_is_lost(PERSP, frustum_grid([2, 2, 3]));
 }
 
 #[test]
 fn no_touching_light_is_lost_in_orthographic_grids() {
-    no_touching_light_is_lost(ORTHO, box_grid([23, 17, 29]));
+    no_touching_light_is_lost(ORTHO, box_grid([11, 9, 13]));
 }

@@ -1,0 +1,86 @@
+//! Whatever decides who is on a light list, and however the list is built: no light is lost that a fragment needs, and
+//! lists are the same by all ways.
+
+use manylight::config::{Assign, Config, FrameRange, Lighting};
+use manylight_tests::{METHODS, Run, methods, run};
+
+const TESTS: [&str; 4] = ["hs", "hs+sat-n", "sat-epv", "exact"];
+
+fn lightings() -> Vec<Lighting> {
+    [(60, 100.0), (600, 20.0), (20_000, 4.0)]
+        .map(|(count, intensity)| Lighting { intensity, ..Lighting::with_count(count) })
+        .to_vec()
+}
+
+fn runs(recording: &str, assign: Vec<Assign>, lights: Vec<Lighting>) -> Vec<Run> {
+    run(Config {
+        recording: recording.to_owned(),
+        methods: methods(&METHODS),
+        lights,
+        assign,
+        test: TESTS.map(|name| name.parse().unwrap()).to_vec(),
+        resolution: [48, 32],
+        frames: FrameRange { first: 300, end: Some(301), step: 1 },
+        runs: 0,
+        ..Config::default()
+    })
+}
+
+/// Runs that differ from `of` in their test or way alone, by what they found.
+fn siblings<'a>(runs: &'a [Run], of: &'a Run) -> impl Iterator<Item = &'a Run> {
+    let axes = |run: &Run| (run.planned.method, run.planned.lighting.clone());
+    runs.iter().filter(move |run| axes(run) == axes(of))
+}
+
+fn no_needed_light_is_lost(recording: &str) {
+    let runs = runs(recording, vec![Assign::Hierarchy], lightings());
+    assert_eq!(runs.len(), 3 * (1 + 6 * TESTS.len()));
+    for of_lighting in runs.chunk_by(|a, b| a.planned.lighting == b.planned.lighting) {
+        let needed = of_lighting[0].counts[0].needed_computations;
+        assert!(needed > 100, "next to nothing is lit");
+        for run in of_lighting {
+            assert_eq!(run.counts[0].needed_computations, needed, "{} lost a light", run.planned.name);
+        }
+    }
+    for run in runs.iter().filter(|run| run.planned.name.ends_with("_exact")) {
+        let exact = run.counts[0].light_indices();
+        let least = siblings(&runs, run).map(|other| other.counts[0].light_indices()).min();
+        assert_eq!(least, Some(exact), "{}: another test has fewer", run.planned.name);
+    }
+}
+
+fn lists_are_the_same_by_all_ways(recording: &str) {
+    let ways = vec![Assign::Brute, Assign::Hierarchy, Assign::Scatter];
+    let runs = runs(recording, ways, lightings()[1..2].to_vec());
+    let hashes = |run: &Run| -> Vec<u64> {
+        run.counts[0].clusterings.iter().map(|clustering| clustering.lists_hash).collect()
+    };
+    let mut compared = 0;
+    for run in &runs {
+        for other in siblings(&runs, run).filter(|other| other.planned.test == run.planned.test) {
+            assert_eq!(hashes(run), hashes(other), "{} and {}", run.planned.name, other.planned.name);
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 1 + 6 * TESTS.len() * 9);
+}
+
+#[test]
+fn no_needed_light_is_lost_in_mono() {
+    no_needed_light_is_lost("bistro");
+}
+
+#[test]
+fn no_needed_light_is_lost_in_stereo() {
+    no_needed_light_is_lost("bistro-vive");
+}
+
+#[test]
+fn lists_are_the_same_by_all_ways_in_mono() {
+    lists_are_the_same_by_all_ways("bistro");
+}
+
+#[test]
+fn lists_are_the_same_by_all_ways_in_stereo() {
+    lists_are_the_same_by_all_ways("bistro-vive");
+}
