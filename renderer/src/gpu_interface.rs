@@ -303,6 +303,8 @@ pub const SCAN_BLOCK: u32 = 1024;
 pub const ASSIGN_GROUP: u32 = 64;
 /// Tiles along x of a dispatch; more go along y.
 pub const TILE_ROW: u32 = 1 << 15;
+/// The same of lists that have a workgroup each.
+pub const LIST_ROW: u32 = 1 << 15;
 /// Blocks of clusters along x and y, at most; along z there are up to 32, a bit each.
 pub const BLOCK_COLUMNS: u32 = 16;
 /// Words of all columns of blocks, with the coarser ones behind them, two by two joined, down to one.
@@ -315,7 +317,7 @@ pub const TREE_SPLIT: u32 = 8;
 pub const DISPATCH_LISTS: u32 = 0;
 /// The same where light bits fit, else nothing.
 pub const DISPATCH_MASKED: u32 = 1;
-/// The same where they do not, else nothing.
+/// Slot of the dispatch size with a workgroup a list where they do not fit, else nothing.
 pub const DISPATCH_UNMASKED: u32 = 2;
 /// Slot of the dispatch size that finds who meets whom.
 pub const DISPATCH_MEET: u32 = 3;
@@ -371,7 +373,7 @@ const COUNTERS: [(&str, Counter); COUNTER_COUNT] = [
     ("COUNTER_INTERSECTION_TESTS", Counter::IntersectionTests),
 ];
 
-const CONSTANTS: [(&str, u32); 24] = [
+const CONSTANTS: [(&str, u32); 25] = [
     ("SET_BUFFERS", SET_BUFFERS),
     ("SET_MATERIAL", SET_MATERIAL),
     ("SET_DEPTH", SET_DEPTH),
@@ -379,6 +381,7 @@ const CONSTANTS: [(&str, u32); 24] = [
     ("SCAN_BLOCK", SCAN_BLOCK),
     ("ASSIGN_GROUP", ASSIGN_GROUP),
     ("TILE_ROW", TILE_ROW),
+    ("LIST_ROW", LIST_ROW),
     ("BLOCK_COLUMNS", BLOCK_COLUMNS),
     ("GROUP_CHUNK", GROUP_CHUNK),
     ("TREE_SPLIT", TREE_SPLIT),

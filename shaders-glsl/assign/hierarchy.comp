@@ -9,6 +9,8 @@
 #include "lib/light_tree.glsl"
 #include "lib/list_builder.glsl"
 
+#extension GL_EXT_control_flow_attributes : require
+
 layout(local_size_x = ASSIGN_GROUP) in;
 
 const uint TREE_CUT = 2u;
@@ -34,9 +36,10 @@ void main()
         if (hit) {
             uint first = place * TREE_WIDTH;
             uint end = min(first + TREE_WIDTH, lights_there);
-            for (uint i = first; i < end; ++i)
-                if (meets(cell, tree_spheres[i]))
-                    add_light(visible, tree_lights[i]);
+            // Some drivers end loops after 2^16 turns: a leaf is none.
+            [[unroll]] for (uint i = 0u; i < TREE_WIDTH; ++i)
+                if (first + i < end && meets(cell, tree_spheres[first + i]))
+                    add_light(visible, tree_lights[first + i]);
             tests += end - first;
         }
         ++place;

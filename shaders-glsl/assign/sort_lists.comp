@@ -1,66 +1,54 @@
-// Sorts each list by light: by insertion while it is short, else by heap, which needs no memory beside. What was written
-// are the numbers of lights, which ascend as the lights do.
+// Sorts each list by light, a workgroup a list: a bitonic network whose every exchange puts the smaller number first, so
+// that what lies beyond the list's end never has to move. What was written are the numbers of lights, which ascend as the
+// lights do.
 #version 460
 #include "lib/list_builder.glsl"
+#extension GL_EXT_control_flow_attributes : require
 
 layout(local_size_x = ASSIGN_GROUP) in;
 
-const uint SHORT = 32u;
+// Exchanges that a thread makes in one turn: some drivers end loops after 2^16 turns.
+const uint AT_ONCE = 8u;
 
-void sort_by_insertion(uint first, uint end)
+void exchange(uint first, uint size, uint low, uint high)
 {
-    for (uint i = first + 1u; i < end; ++i) {
-        uint light = light_indices[i];
-        uint slot = i;
-        for (; slot > first; --slot) {
-            uint before = light_indices[slot - 1u];
-            if (before < light)
-                break;
-            light_indices[slot] = before;
+    if (high >= size)
+        return;
+    uint a = light_indices[first + low], b = light_indices[first + high];
+    light_indices[first + low] = min(a, b);
+    light_indices[first + high] = max(a, b);
+}
+
+// Exchanges within blocks of twice `half_block`: the first with the last and so on inwards (`inwards`), or the first of
+// one half with the first of the other and so on.
+void exchange_all(uint first, uint size, uint half_block, bool inwards)
+{
+    uint pairs = (size + 2u * half_block - 1u) / (2u * half_block) * half_block;
+    for (uint turn = gl_LocalInvocationID.x; turn < pairs; turn += ASSIGN_GROUP * AT_ONCE) {
+        [[unroll]] for (uint i = 0u; i < AT_ONCE; ++i) {
+            uint pair = turn + i * ASSIGN_GROUP;
+            uint block = pair / half_block * 2u * half_block, at = pair % half_block;
+            if (pair < pairs)
+                exchange(first, size, block + at, block + (inwards ? 2u * half_block - 1u - at : half_block + at));
         }
-        light_indices[slot] = light;
     }
-}
-
-// Lets the item at `place` of the heap at `first` sink below all that are larger.
-void sink(uint first, uint place, uint size)
-{
-    uint light = light_indices[first + place];
-    for (uint child = 2u * place + 1u; child < size; child = 2u * place + 1u) {
-        uint largest = light_indices[first + child];
-        if (child + 1u < size && light_indices[first + child + 1u] > largest)
-            largest = light_indices[first + ++child];
-        if (largest < light)
-            break;
-        light_indices[first + place] = largest;
-        place = child;
-    }
-    light_indices[first + place] = light;
-}
-
-void sort_by_heap(uint first, uint size)
-{
-    for (uint place = size / 2u; place > 0u; --place)
-        sink(first, place - 1u, size);
-    for (uint last = size - 1u; last > 0u; --last) {
-        uint largest = light_indices[first];
-        light_indices[first] = light_indices[first + last];
-        light_indices[first + last] = largest;
-        sink(first, 0u, last);
-    }
+    memoryBarrierBuffer();
+    barrier();
 }
 
 void main()
 {
-    uint visible = gl_GlobalInvocationID.x;
-    if (visible >= state.visible)
-        return;
-    uint first = min(list_offsets[visible], grid.index_capacity);
-    uint end = min(list_offsets[visible + 1u], grid.index_capacity);
-    if (end - first <= SHORT)
-        sort_by_insertion(first, end);
-    else
-        sort_by_heap(first, end - first);
-    for (uint i = first; i < end; ++i)
-        light_indices[i] = light_of_number(light_indices[i]);
+    uint visible = gl_WorkGroupID.y * LIST_ROW + gl_WorkGroupID.x;
+    uint first = 0u, size = 0u;
+    if (visible < state.visible) {
+        first = min(list_offsets[visible], grid.index_capacity);
+        size = min(list_offsets[visible + 1u], grid.index_capacity) - first;
+    }
+    for (uint half_sorted = 1u; half_sorted < size; half_sorted *= 2u) {
+        exchange_all(first, size, half_sorted, true);
+        for (uint half_block = half_sorted / 2u; half_block > 0u; half_block /= 2u)
+            exchange_all(first, size, half_block, false);
+    }
+    for (uint i = gl_LocalInvocationID.x; i < size; i += ASSIGN_GROUP)
+        light_indices[first + i] = light_of_number(light_indices[first + i]);
 }

@@ -33,7 +33,8 @@ void publish_lists(uint lights)
     state.masked = uint(masked);
     DispatchSize lists = groups_for(state.visible, ASSIGN_GROUP);
     dispatches[DISPATCH_LISTS] = lists;
-    DispatchSize masked_lists = lists, unmasked_lists = lists;
+    DispatchSize masked_lists = lists;
+    DispatchSize unmasked_lists = DispatchSize(min(state.visible, LIST_ROW), (state.visible + LIST_ROW - 1u) / LIST_ROW, 1u);
     if (masked)
         unmasked_lists = NO_DISPATCH;
     else
