@@ -5,10 +5,11 @@ use crate::assign::Assigner;
 use crate::clustering::Clustering;
 use crate::config::Marking;
 use crate::draw_list::DrawList;
+use crate::draw_slots::{DrawSlots, SlotOrder};
 use crate::gpu_scene::GpuScene;
 use crate::layouts::Layouts;
 use crate::pass::Recorder;
-use crate::passes::{assign, depth, hierarchy, lights, mark, readback, resolve, scan, shade};
+use crate::passes::{assign, cull, depth, hierarchy, lights, mark, readback, resolve, scan, shade};
 use crate::pipelines::Pipelines;
 use crate::vk::{Buffer, Image};
 use ash::vk;
@@ -28,6 +29,29 @@ pub struct ViewTargets {
     pub depth_set: vk::DescriptorSet,
 }
 
+/// What stage `cull` fills, a part for each view; shared by the frames in flight.
+pub struct DrawBuffers {
+    /// [`crate::gpu_interface::DrawCommand`], as many in each part as there are slots.
+    pub commands: Buffer,
+    /// Instances that the commands draw.
+    pub drawn_instances: Buffer,
+}
+
+/// What the views draw of the scene.
+pub enum Draws<'a> {
+    /// What the host let through, a list for each view.
+    Listed(&'a [DrawList]),
+    /// Everything, by commands that stage `cull` fills.
+    Indirect {
+        /// The scene's.
+        slots: &'a DrawSlots,
+        /// An order for each view.
+        orders: &'a [SlotOrder],
+        /// The commands.
+        buffers: &'a DrawBuffers,
+    },
+}
+
 /// Everything one frame is recorded from. All of it stays as it is until the frame has ended.
 pub struct Frame<'a> {
     /// Descriptor set and pipeline layouts.
@@ -37,7 +61,7 @@ pub struct Frame<'a> {
     /// What is drawn.
     pub scene: &'a GpuScene,
     /// What each view draws of it.
-    pub draw_lists: &'a [DrawList],
+    pub draws: Draws<'a>,
     /// What each view is rendered into.
     pub targets: &'a [ViewTargets],
     /// The clusterings; for a method without, one that holds every view and no grid.
@@ -76,6 +100,9 @@ impl Frame<'_> {
 pub fn record(r: &mut Recorder, frame: &Frame) {
     r.scope("frame", |r| {
         lights::record(r, frame);
+        for view in 0..frame.targets.len() {
+            cull::record(r, frame, view);
+        }
         if frame.clustered {
             for clustering in 0..frame.clusterings.len() {
                 r.scope(("cluster", clustering), |r| cluster(r, frame, clustering));

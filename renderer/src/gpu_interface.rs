@@ -8,6 +8,9 @@
 //!               (transform_lights)             └──────────────────────────> light_indices (assign_lights) <──┘
 //! ```
 //!
+//! Where the device culls, `views`, `instances`, `draw_slots` and `draw_order` go to `draw_commands` and
+//! `drawn_instances` before all that (cull).
+//!
 //! Assignment by hierarchy or scatter goes to `segment_counts` by way of `light_masks` where lights are few, and the
 //! hierarchy puts `sort_items` and `digit_counts`, then `tree_spheres`, `tree_lights` and `light_nodes` before it.
 
@@ -34,6 +37,8 @@ gpu_struct! {
         pub near: f32,
         /// Metres, positive.
         pub far: f32,
+        /// Inward unit normal and offset of each side, world space, moved out by what rounding may cost.
+        pub planes: [[f32; 4]; 6],
     }
 }
 
@@ -138,6 +143,38 @@ gpu_struct! {
         pub world_from_object: [[f32; 4]; 4],
         /// Into the materials.
         pub material: u32,
+        /// Middle of the box around it, world space, metres.
+        pub box_center: [f32; 3],
+        /// Half the size of that box, metres.
+        pub box_half_extent: [f32; 3],
+    }
+}
+
+gpu_struct! {
+    /// An indirect draw, as the device takes it (VkDrawIndexedIndirectCommand).
+    pub struct DrawCommand {
+        /// Indices of the primitive.
+        pub index_count: u32,
+        /// Instances drawn.
+        pub instance_count: u32,
+        /// Into the indices.
+        pub first_index: u32,
+        /// Added to every index.
+        pub vertex_offset: i32,
+        /// Of a slot: into the instances. Of a command: into the drawn instances.
+        pub first_instance: u32,
+    }
+}
+
+gpu_struct! {
+    /// How much a scene draws where the device culls.
+    pub struct DrawCounts {
+        /// Slots of opaque and masked geometry.
+        pub surfaces: u32,
+        /// Slots of transparent geometry, behind those.
+        pub transparents: u32,
+        /// Instances of all slots.
+        pub instances: u32,
     }
 }
 
@@ -211,10 +248,14 @@ pub enum Binding {
     TreeSpheres,
     TreeLights,
     LightNodes,
+    DrawSlots,
+    DrawOrder,
+    DrawCommands,
+    DrawnInstances,
 }
 
 /// Every buffer as (binding, access, GLSL member).
-pub const BUFFERS: [(Binding, &str, &str); 25] = [
+pub const BUFFERS: [(Binding, &str, &str); 29] = [
     (Binding::Views, "readonly", "ViewData views[]"),
     (Binding::Grid, "readonly", "GridData grid"),
     (Binding::Lights, "readonly", "LightData lights[]"),
@@ -240,6 +281,10 @@ pub const BUFFERS: [(Binding, &str, &str); 25] = [
     (Binding::TreeSpheres, "", "vec4 tree_spheres[]"),
     (Binding::TreeLights, "", "uint tree_lights[]"),
     (Binding::LightNodes, "", "LightNode light_nodes[]"),
+    (Binding::DrawSlots, "readonly", "DrawCommand draw_slots[]"),
+    (Binding::DrawOrder, "readonly", "DrawCounts draw_counts; uint draw_order[]"),
+    (Binding::DrawCommands, "", "DrawCommand draw_commands[]"),
+    (Binding::DrawnInstances, "", "uint drawn_instances[]"),
 ];
 
 /// Descriptor set of the storage buffers.
@@ -254,6 +299,8 @@ pub const SCAN_GROUP: u32 = 256;
 pub const SCAN_BLOCK: u32 = 1024;
 /// Threads of a workgroup of the assignment passes.
 pub const ASSIGN_GROUP: u32 = 64;
+/// Threads of a workgroup of culling.
+pub const CULL_GROUP: u32 = 64;
 /// Slot of the assignment's dispatch size.
 pub const DISPATCH_ASSIGN: u32 = 0;
 /// Slot of the dispatch size of the prefix sum over list lengths.
@@ -304,13 +351,14 @@ const COUNTERS: [(&str, Counter); COUNTER_COUNT] = [
     ("COUNTER_INTERSECTION_TESTS", Counter::IntersectionTests),
 ];
 
-const CONSTANTS: [(&str, u32); 15] = [
+const CONSTANTS: [(&str, u32); 16] = [
     ("SET_BUFFERS", SET_BUFFERS),
     ("SET_MATERIAL", SET_MATERIAL),
     ("SET_DEPTH", SET_DEPTH),
     ("SCAN_GROUP", SCAN_GROUP),
     ("SCAN_BLOCK", SCAN_BLOCK),
     ("ASSIGN_GROUP", ASSIGN_GROUP),
+    ("CULL_GROUP", CULL_GROUP),
     ("DISPATCH_ASSIGN", DISPATCH_ASSIGN),
     ("DISPATCH_SCAN", DISPATCH_SCAN),
     ("DISPATCH_SORT", DISPATCH_SORT),
@@ -323,10 +371,11 @@ const CONSTANTS: [(&str, u32); 15] = [
 ];
 
 /// Names of what shader variants choose among; the value is the position.
-const VARIANT_NAMES: [&[&str]; 3] = [
+const VARIANT_NAMES: [&[&str]; 4] = [
     &["SPACE_PERSPECTIVE", "SPACE_ORTHOGRAPHIC"],
     &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS", "SCAN_DIGITS"],
     &["LOOKUP_ALL_LIGHTS", "LOOKUP_CLUSTERED"],
+    &["CULLING_CPU", "CULLING_GPU"],
 ];
 
 /// The include that declares all of this to shaders.
@@ -356,6 +405,8 @@ pub fn glsl() -> String {
         LightData::GLSL,
         MaterialData::GLSL,
         InstanceData::GLSL,
+        DrawCommand::GLSL,
+        DrawCounts::GLSL,
         ClusteringState::GLSL,
         DispatchSize::GLSL,
         PixelData::GLSL,
@@ -387,6 +438,8 @@ mod tests {
             LightData::INFO,
             MaterialData::INFO,
             InstanceData::INFO,
+            DrawCommand::INFO,
+            DrawCounts::INFO,
             ClusteringState::INFO,
             DispatchSize::INFO,
             PixelData::INFO,

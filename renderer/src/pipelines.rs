@@ -7,7 +7,7 @@ mod debug;
 pub use debug::DebugPipelines;
 
 use crate::assign::Assigner;
-use crate::config::Marking;
+use crate::config::{Config, Culling, Marking};
 use crate::draw_list::SurfaceKind;
 use crate::layouts::Layouts;
 use crate::lights::Attenuation;
@@ -32,6 +32,8 @@ pub struct Variant {
     pub method: MethodSpec,
     /// Samples per pixel.
     pub samples: u32,
+    /// Where instances are culled.
+    pub culling: Culling,
     /// Marking from depth shades per sample, marking from geometry per fragment.
     pub marking: Marking,
     /// How the lists are built.
@@ -133,6 +135,7 @@ pub struct AcceleratedPipelines {
 
 /// All pipelines of one variant.
 pub struct Pipelines {
+    cull: Option<Arc<Pipeline>>,
     /// Prepass of opaque geometry.
     pub depth_opaque: Arc<Pipeline>,
     /// Prepass of masked geometry.
@@ -146,6 +149,11 @@ pub struct Pipelines {
 }
 
 impl Pipelines {
+    /// Culls on the device; only its pass asks.
+    pub fn cull(&self) -> &Pipeline {
+        self.cull.as_ref().expect("stage cull runs where the device culls")
+    }
+
     /// The clustered methods' pipelines; only their passes ask.
     pub fn clustered(&self) -> &ClusteredPipelines {
         self.clustered.as_ref().expect("a pass of clustered methods runs in a clustered method")
@@ -194,7 +202,12 @@ impl PipelineStore {
             Assigner::Brute => None,
             Assigner::Hierarchy | Assigner::Scatter => Some(self.accelerated(&variant.defines())?),
         };
+        let cull = match variant.culling {
+            Culling::Cpu => None,
+            Culling::Gpu => Some(self.compute("geometry/cull.comp", &Defines(vec![]))?),
+        };
         Ok(Pipelines {
+            cull,
             depth_opaque: self.graphics(variant, None, Output::Depth)?,
             depth_masked: self.graphics(variant, Some("geometry/alpha_test.frag"), Output::Depth)?,
             shade: self.per_kind(variant, "shade/forward.frag", Output::Shades)?,
@@ -326,7 +339,11 @@ impl PipelineStore {
 }
 
 fn graphics_defines(variant: &Variant, textured: bool, output: Output) -> Defines {
-    let defines = variant.defines().with("VARYINGS", varyings(textured, output));
+    let culling = match variant.culling {
+        Culling::Cpu => "CULLING_CPU",
+        Culling::Gpu => "CULLING_GPU",
+    };
+    let defines = variant.defines().with("CULLING", culling).with("VARYINGS", varyings(textured, output));
     match output {
         Output::Depth => defines,
         Output::Marks(_) => defines.with("COUNT_FRAGMENTS", 0),
@@ -377,8 +394,9 @@ fn vertex_attributes(varyings: u32) -> Vec<vk::VertexInputAttributeDescription> 
 }
 
 /// Refuses what the device cannot do, before anything is made.
-pub fn check_device(context: &Context, samples: u32, marking: Marking) -> Result<()> {
+pub fn check_device(context: &Context, config: &Config) -> Result<()> {
     let limits = &context.limits;
+    let (samples, marking) = (config.msaa, config.marking);
     if !limits.sample_counts.contains(&samples) {
         return Err(Error::Device(format!(
             "{} cannot render {samples} samples per pixel (it can: {:?}): change --msaa",
@@ -388,6 +406,14 @@ pub fn check_device(context: &Context, samples: u32, marking: Marking) -> Result
     if samples > 1 && marking == Marking::Depth && !limits.sample_rate_shading {
         return Err(Error::Device(format!(
             "{} cannot shade per sample, which marking from depth needs with MSAA: use --marking geometry",
+            context.info.name
+        )));
+    }
+    let indirect = limits.max_draw_indirect_count > 1 && limits.draw_indirect_first_instance;
+    if config.culling == Culling::Gpu && !indirect {
+        return Err(Error::Device(format!(
+            "{} lacks multiDrawIndirect or drawIndirectFirstInstance, which culling on the device needs: use --culling \
+             cpu",
             context.info.name
         )));
     }

@@ -23,15 +23,25 @@ layout(location = 4) out vec4 out_tangent;
 // The same bits in every pass: shading tests for equal depth.
 invariant gl_Position;
 
+uint drawn_instance()
+{
+#if CULLING == CULLING_GPU
+    return drawn_instances[gl_InstanceIndex];
+#else
+    return gl_InstanceIndex;
+#endif
+}
+
 void main()
 {
-    mat4 world_from_object = instances[gl_InstanceIndex].world_from_object;
+    uint instance = drawn_instance();
+    mat4 world_from_object = instances[instance].world_from_object;
     vec4 world = world_from_object * vec4(position, 1.0);
     gl_Position = views[push.view].clip_from_world * world;
 #if VARYINGS >= 1
     out_uv = vec4(uv0, uv1);
     out_color = color;
-    out_material = instances[gl_InstanceIndex].material;
+    out_material = instances[instance].material;
 #endif
 #if VARYINGS >= 2
     // The cofactor matrix carries normals through any affine map, mirroring included.

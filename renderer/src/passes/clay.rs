@@ -1,6 +1,7 @@
 //! Stage `clay` of stills: opaque and masked surfaces without their shading, so that every camera sees something.
 
 use super::draws;
+use crate::draw_list::SurfaceKind;
 use crate::frame::Frame;
 use crate::pass::{Access, Recorder, Use};
 use crate::pipelines::DebugPipelines;
@@ -10,9 +11,8 @@ use ash::vk;
 pub fn record(r: &mut Recorder, frame: &Frame, pipelines: &DebugPipelines, view: usize) {
     r.scope(("clay", view), |r| {
         begin_over_prepass(r, frame, view);
-        let list = &frame.draw_lists[view];
-        draws::draw(r, frame, view, &pipelines.clay[0], &list.opaque, true);
-        draws::draw(r, frame, view, &pipelines.clay[1], &list.masked, true);
+        draws::draw(r, frame, view, &pipelines.clay[0], (SurfaceKind::Opaque, true));
+        draws::draw(r, frame, view, &pipelines.clay[1], (SurfaceKind::Masked, true));
         draws::end_rendering(r);
     });
 }

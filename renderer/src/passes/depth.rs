@@ -1,6 +1,7 @@
 //! Stage `depth[v]`: prepass of opaque and masked geometry.
 
 use super::draws;
+use crate::draw_list::SurfaceKind;
 use crate::frame::Frame;
 use crate::pass::{Access, Recorder, Use};
 use ash::vk;
@@ -11,9 +12,8 @@ pub fn record(r: &mut Recorder, frame: &Frame, view: usize) {
         let target = &frame.targets[view];
         r.access(&[Access::image(target.depth.handle, vk::ImageAspectFlags::DEPTH, Use::Depth)]);
         draws::begin_rendering(r, frame, None, &draws::depth_attachment(frame, view, true));
-        let list = &frame.draw_lists[view];
-        draws::draw(r, frame, view, &frame.pipelines.depth_opaque, &list.opaque, false);
-        draws::draw(r, frame, view, &frame.pipelines.depth_masked, &list.masked, true);
+        draws::draw(r, frame, view, &frame.pipelines.depth_opaque, (SurfaceKind::Opaque, false));
+        draws::draw(r, frame, view, &frame.pipelines.depth_masked, (SurfaceKind::Masked, true));
         draws::end_rendering(r);
     });
 }

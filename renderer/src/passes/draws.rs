@@ -1,19 +1,25 @@
 //! Drawing the scene: what every geometry pass shares.
 
-use crate::draw_list::DrawRun;
-use crate::frame::Frame;
-use crate::gpu_interface::{SET_BUFFERS, SET_MATERIAL};
-use crate::pass::Recorder;
-use crate::vk::Pipeline;
+use crate::draw_list::{DrawRun, SurfaceKind};
+use crate::frame::{Draws, Frame};
+use crate::gpu_interface::{DrawCommand, SET_BUFFERS, SET_MATERIAL};
+use crate::pass::{Access, Recorder, Use};
+use crate::vk::{Buffer, Pipeline};
 use ash::vk;
 
 /// Opens dynamic rendering over a whole view and sets the viewport (flipped, so that +Y stays up).
 pub fn begin_rendering(
-    r: &Recorder,
+    r: &mut Recorder,
     frame: &Frame,
     color: Option<&vk::RenderingAttachmentInfo>,
     depth: &vk::RenderingAttachmentInfo,
 ) {
+    if let Draws::Indirect { buffers, .. } = &frame.draws {
+        r.access(&[
+            Access::buffer(buffers.commands.handle, Use::Indirect),
+            Access::buffer(buffers.drawn_instances.handle, Use::VertexRead),
+        ]);
+    }
     let [width, height] = frame.resolution;
     let area = vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } };
     let viewport = vk::Viewport {
@@ -58,38 +64,90 @@ pub fn depth_attachment(frame: &Frame, view: usize, clear: bool) -> vk::Renderin
         .clear_value(vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth: 0.0, stencil: 0 } })
 }
 
-/// Draws `runs` of one view with one pipeline; material textures are bound where the pipeline reads them.
-pub fn draw(r: &Recorder, frame: &Frame, view: usize, pipeline: &Pipeline, runs: &[DrawRun], textured: bool) {
-    if runs.is_empty() {
+/// Draws one kind of surface of a view with one pipeline; material textures are bound where the pipeline reads them.
+pub fn draw(
+    r: &Recorder,
+    frame: &Frame,
+    view: usize,
+    pipeline: &Pipeline,
+    (kind, textured): (SurfaceKind, bool),
+) {
+    if !frame.draws.any(view, kind) {
         return;
     }
-    let device = &r.context.device;
     frame.bind(r, vk::PipelineBindPoint::GRAPHICS, pipeline, view);
-    let (mut material, mut facing) = (None, None);
-    for run in runs {
-        let batch = &frame.scene.batches[run.batch as usize];
-        if textured && material != Some(batch.material) {
-            material = Some(batch.material);
-            frame.bind_set(
-                r,
-                vk::PipelineBindPoint::GRAPHICS,
-                SET_MATERIAL,
-                frame.scene.material_sets[batch.material as usize],
-            );
+    let mut state = SurfaceState { textured, material: None, facing: None };
+    match &frame.draws {
+        Draws::Listed(lists) => {
+            for run in lists[view].runs(kind) {
+                state.set(r, frame, run.batch);
+                draw_run(r, frame, run);
+            }
         }
-        if facing != Some((batch.mirrored, batch.double_sided)) {
-            facing = Some((batch.mirrored, batch.double_sided));
+        Draws::Indirect { slots, orders, buffers } => {
+            let part = view * slots.slots.len();
+            for group in orders[view].groups(slots, kind) {
+                state.set(r, frame, group.batch);
+                draw_commands(r, &buffers.commands, part as u64 + u64::from(group.first), group.count);
+            }
+        }
+    }
+}
+
+fn draw_run(r: &Recorder, frame: &Frame, run: &DrawRun) {
+    let batch = &frame.scene.batches[run.batch as usize];
+    unsafe {
+        r.context.device.cmd_draw_indexed(
+            r.commands,
+            batch.index_count,
+            run.instance_count,
+            batch.first_index,
+            batch.vertex_offset,
+            run.first_instance,
+        );
+    }
+}
+
+/// Draws consecutive commands, in as many calls as the device's limit asks for.
+fn draw_commands(r: &Recorder, commands: &Buffer, first: u64, count: u32) {
+    const STRIDE: u32 = size_of::<DrawCommand>() as u32;
+    let most = r.context.limits.max_draw_indirect_count;
+    for done in (0..count).step_by(most as usize) {
+        let offset = (first + u64::from(done)) * u64::from(STRIDE);
+        let now = most.min(count - done);
+        unsafe {
+            r.context.device.cmd_draw_indexed_indirect(r.commands, commands.handle, offset, now, STRIDE);
+        }
+    }
+}
+
+/// The textures bound and the facing set, so that neither is set twice.
+struct SurfaceState {
+    textured: bool,
+    material: Option<u32>,
+    facing: Option<(bool, bool)>,
+}
+
+impl SurfaceState {
+    fn set(&mut self, r: &Recorder, frame: &Frame, batch: u32) {
+        let batch = &frame.scene.batches[batch as usize];
+        if self.textured && self.material.replace(batch.material) != Some(batch.material) {
+            let textures = frame.scene.material_sets[batch.material as usize];
+            frame.bind_set(r, vk::PipelineBindPoint::GRAPHICS, SET_MATERIAL, textures);
+        }
+        let facing = (batch.mirrored, batch.double_sided);
+        if self.facing.replace(facing) != Some(facing) {
             set_facing(r, batch.mirrored, batch.double_sided);
         }
-        unsafe {
-            device.cmd_draw_indexed(
-                r.commands,
-                batch.index_count,
-                run.instance_count,
-                batch.first_index,
-                batch.vertex_offset,
-                run.first_instance,
-            );
+    }
+}
+
+impl Draws<'_> {
+    /// Whether a view draws surfaces of a kind; where the device culls, whether there are any.
+    pub fn any(&self, view: usize, kind: SurfaceKind) -> bool {
+        match self {
+            Self::Listed(lists) => !lists[view].runs(kind).is_empty(),
+            Self::Indirect { slots, orders, .. } => !orders[view].groups(slots, kind).is_empty(),
         }
     }
 }

@@ -52,7 +52,7 @@ fn visit(r: &mut Recorder, frame: &Frame, view: usize, pipelines: &MarkPipelines
         }
         Marking::Geometry => &SurfaceKind::ALL[..],
     };
-    if kinds.iter().any(|&kind| !frame.draw_lists[view].runs(kind).is_empty()) {
+    if kinds.iter().any(|&kind| frame.draws.any(view, kind)) {
         from_geometry(r, frame, (view, kinds), pipelines, written);
     }
 }
@@ -82,8 +82,7 @@ fn from_geometry(
     ]);
     draws::begin_rendering(r, frame, None, &draws::depth_attachment(frame, view, false));
     for &kind in kinds {
-        let runs = frame.draw_lists[view].runs(kind);
-        draws::draw(r, frame, view, &pipelines.geometry[kind as usize], runs, false);
+        draws::draw(r, frame, view, &pipelines.geometry[kind as usize], (kind, false));
     }
     draws::end_rendering(r);
 }

@@ -42,6 +42,6 @@ fn surfaces(r: &mut Recorder, frame: &Frame, view: usize, kind: SurfaceKind) {
         .clear_value(vk::ClearValue { color: vk::ClearColorValue { float32: BACKGROUND } });
     draws::begin_rendering(r, frame, Some(&color), &draws::depth_attachment(frame, view, false));
     let pipeline = &frame.pipelines.shade[kind as usize];
-    draws::draw(r, frame, view, pipeline, frame.draw_lists[view].runs(kind), true);
+    draws::draw(r, frame, view, pipeline, (kind, true));
     draws::end_rendering(r);
 }

@@ -8,9 +8,9 @@ use crate::assign::Assigner;
 use crate::clustering::{
     Clustering, ClusteringSizes, SharedBuffers, device_buffer, grid_data, gridless_data, view_data,
 };
-use crate::config::{Config, Marking, Scopes};
-use crate::frame::{self, Frame, SLOTS};
-use crate::gpu_interface::{ClusteringState, LightData};
+use crate::config::{Config, Culling, Marking, Scopes};
+use crate::frame::{self, Draws, Frame, SLOTS};
+use crate::gpu_interface::{ClusteringState, DrawCounts, LightData};
 use crate::lights::PointLight;
 use crate::measure::{Capacities, GrowthEvent};
 use crate::methods::MethodSpec;
@@ -25,6 +25,7 @@ use std::sync::Arc;
 pub struct Engine {
     context: Arc<Context>,
     method: MethodSpec,
+    culling: Culling,
     marking: Marking,
     assigner: Assigner,
     resolution: [u32; 2],
@@ -59,6 +60,7 @@ pub fn variant(config: &Config, method: MethodSpec, mode: &Mode) -> Variant {
     Variant {
         method,
         samples: config.msaa,
+        culling: config.culling,
         marking: config.marking,
         assigner: assigner(method, mode),
         attenuation: config.attenuation,
@@ -108,6 +110,7 @@ impl Engine {
         let mut engine = Self {
             context: session.context.clone(),
             method,
+            culling: config.culling,
             marking: config.marking,
             assigner: assigner(method, &mode),
             resolution: config.resolution,
@@ -159,6 +162,9 @@ impl Engine {
             lights: &self.lights,
             materials: &session.scene.materials,
             instances: &session.scene.instances,
+            draw_slots: &session.scene.draw_slots,
+            draw_order: [&session.slots[0].draw_order, &session.slots[1].draw_order],
+            draws: &session.draws,
         };
         for views in views_of_clusterings(&self.method, session.targets.len()) {
             let clustering =
@@ -207,7 +213,14 @@ impl Engine {
             layouts: &session.layouts,
             pipelines: &self.pipelines,
             scene: &session.scene,
-            draw_lists: &this.draw_lists,
+            draws: match self.culling {
+                Culling::Cpu => Draws::Listed(&this.draw_lists),
+                Culling::Gpu => Draws::Indirect {
+                    slots: &session.draw_slots,
+                    orders: &this.slot_orders,
+                    buffers: &session.draws,
+                },
+            },
             targets: &session.targets,
             clusterings: &self.clusterings,
             clustered: self.method != MethodSpec::AllLights,
@@ -246,12 +259,24 @@ impl Engine {
             clustering.word_count = data.word_count;
             clustering.grids[slot].write(0, &[data]);
             for v in clustering.views.clone() {
-                let data = view_data(&plan.views[v], grid, self.resolution);
+                let data = view_data(&plan.views[v], grid, self.resolution, session.reach);
                 this.views.write((v * size_of_val(&data)) as u64, &[data]);
             }
         }
-        for (view, list) in plan.views.iter().zip(&mut this.draw_lists) {
-            list.update(&session.batches, view);
+        match self.culling {
+            Culling::Cpu => {
+                for (view, list) in plan.views.iter().zip(&mut this.draw_lists) {
+                    list.update(&session.batches, view);
+                }
+            }
+            Culling::Gpu => {
+                let mut offset = size_of::<DrawCounts>() as u64;
+                for (view, order) in plan.views.iter().zip(&mut this.slot_orders) {
+                    order.update(&session.draw_slots, view);
+                    this.draw_order.write(offset, &order.slots);
+                    offset += size_of_val(order.slots.as_slice()) as u64;
+                }
+            }
         }
         self.staged.clear();
         self.staged.extend(lights.iter().map(light_data));

@@ -1,9 +1,11 @@
 //! What all runs of a replay share: device, scene, render targets, frames in flight.
 
+use crate::clustering::device_buffer;
 use crate::config::Config;
 use crate::draw_list::{Batches, DrawList};
-use crate::frame::{SLOTS, ViewTargets};
-use crate::gpu_interface::ViewData;
+use crate::draw_slots::{DrawSlots, SlotOrder};
+use crate::frame::{DrawBuffers, SLOTS, ViewTargets};
+use crate::gpu_interface::{DrawCommand, DrawCounts, ViewData};
 use crate::gpu_scene::GpuScene;
 use crate::layouts::{DescriptorSets, Layouts};
 use crate::pass::{FrameTracker, Timestamps};
@@ -29,12 +31,16 @@ pub struct Slot {
     pub views: Buffer,
     /// Each clustering's state, mapped.
     pub states: Buffer,
-    /// What each view draws.
+    /// What each view draws, where the host culls.
     pub draw_lists: Vec<DrawList>,
+    /// In which order each view draws, where the device culls.
+    pub slot_orders: Vec<SlotOrder>,
+    /// [`DrawCounts`] and the transparent slots of all views in their order, mapped.
+    pub draw_order: Buffer,
 }
 
 impl Slot {
-    fn new(context: &Arc<Context>, views: usize) -> Result<Self> {
+    fn new(context: &Arc<Context>, views: usize, counts: DrawCounts) -> Result<Self> {
         let failed = |e: vk::Result| Error::Device(format!("cannot make a frame in flight: {e}"));
         let device = &context.device;
         let info = vk::CommandPoolCreateInfo::default()
@@ -69,6 +75,8 @@ impl Slot {
                 Memory::Readback,
             )?,
             draw_lists: vec![DrawList::default(); views],
+            slot_orders: vec![SlotOrder::default(); views],
+            draw_order: draw_order(context, views, counts)?,
         })
     }
 
@@ -126,6 +134,12 @@ pub struct Session {
     pub scene: GpuScene,
     /// Its instances in drawing order.
     pub batches: Batches,
+    /// No instance reaches farther from the world's origin, metres.
+    pub reach: f64,
+    /// What is drawn of them where the device culls.
+    pub draw_slots: DrawSlots,
+    /// What stage `cull` fills.
+    pub draws: DrawBuffers,
     /// Pipelines made so far.
     pub store: PipelineStore,
     /// The one pipeline layout.
@@ -141,12 +155,13 @@ impl Session {
     pub fn new(config: &Config, scene: &Scene, views: usize) -> Result<Self> {
         let options = DeviceOptions { device: config.device.clone(), validate: config.validate };
         let context = Context::new(&options)?;
-        pipelines::check_device(&context, config.msaa, config.marking)?;
+        pipelines::check_device(&context, config)?;
         check_resolution(&context, config.resolution)?;
         let layouts = Arc::new(Layouts::new(&context)?);
         let shaders = shader_library(config)?;
         let batches = Batches::new(scene);
-        let gpu_scene = GpuScene::new(&context, &layouts, scene, &batches)?;
+        let draw_slots = DrawSlots::new(&batches);
+        let gpu_scene = GpuScene::new(&context, &layouts, scene, (&batches, &draw_slots))?;
         let depth_sets = DescriptorSets::new(
             &context,
             "depth",
@@ -161,17 +176,41 @@ impl Session {
             .map(|(view, &set)| targets(&context, config, view, set))
             .collect::<Result<_>>()?;
         Ok(Self {
-            slots: [Slot::new(&context, views)?, Slot::new(&context, views)?],
+            slots: [
+                Slot::new(&context, views, draw_slots.counts)?,
+                Slot::new(&context, views, draw_slots.counts)?,
+            ],
             targets,
             _depth_sets: depth_sets,
             scene: gpu_scene,
+            reach: batches.reach(),
             batches,
+            draws: draw_buffers(&context, views, draw_slots.counts)?,
+            draw_slots,
             store: PipelineStore::new(&context, &layouts, shaders),
             layouts,
             tracker: FrameTracker::default(),
             context,
         })
     }
+}
+
+/// Counts, and room for the order of every view's transparent slots.
+fn draw_order(context: &Arc<Context>, views: usize, counts: DrawCounts) -> Result<Buffer> {
+    let size = size_of::<DrawCounts>() + 4 * views * counts.transparents as usize;
+    let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+    let buffer = Buffer::new(context, "draw order", size as u64, usage, Memory::Upload)?;
+    buffer.write(0, &[counts]);
+    Ok(buffer)
+}
+
+fn draw_buffers(context: &Arc<Context>, views: usize, counts: DrawCounts) -> Result<DrawBuffers> {
+    let commands = views as u64 * u64::from(counts.surfaces + counts.transparents);
+    let instances = views as u64 * u64::from(counts.instances);
+    Ok(DrawBuffers {
+        commands: device_buffer(context, "draw commands", commands * size_of::<DrawCommand>() as u64)?,
+        drawn_instances: device_buffer(context, "drawn instances", 4 * instances)?,
+    })
 }
 
 /// The shader sources that the config chooses.
