@@ -127,6 +127,7 @@ pub struct DrawList {
     /// From far to near.
     pub transparent: Vec<DrawRun>,
     far_to_near: Vec<(f64, u32)>,
+    planes: Vec<ViewPlanes>,
 }
 
 impl DrawList {
@@ -139,15 +140,16 @@ impl DrawList {
         }
     }
 
-    /// Refills the list with what `view` may see.
-    pub fn update(&mut self, batches: &Batches, view: &View) {
+    /// Refills the list with what any of `views` may see; transparent instances are sorted for the first of them.
+    pub fn update(&mut self, batches: &Batches, views: &[View]) {
         self.opaque.clear();
         self.masked.clear();
         self.transparent.clear();
         self.far_to_near.clear();
-        let planes = ViewPlanes::new(view);
+        self.planes.clear();
+        self.planes.extend(views.iter().map(ViewPlanes::new));
         for (instance, bounds) in batches.boxes.iter().enumerate() {
-            if !planes.may_see(bounds) {
+            if !self.planes.iter().any(|planes| planes.may_see(bounds)) {
                 continue;
             }
             let run = batches.run(instance);
@@ -155,7 +157,7 @@ impl DrawList {
                 SurfaceKind::Opaque => append(&mut self.opaque, run),
                 SurfaceKind::Masked => append(&mut self.masked, run),
                 SurfaceKind::Transparent => {
-                    let distance = bounds.center.distance_squared(view.pose.position);
+                    let distance = bounds.center.distance_squared(views[0].pose.position);
                     self.far_to_near.push((distance, instance as u32));
                 }
             }

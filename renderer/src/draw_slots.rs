@@ -191,7 +191,7 @@ mod tests {
         let slots = DrawSlots::new(&batches);
         let (mut order, mut list) = (SlotOrder::default(), DrawList::default());
         order.update(&slots, &view());
-        list.update(&batches, &view());
+        list.update(&batches, &[view()]);
         let listed: Vec<u32> = list.transparent.iter().map(|run| run.first_instance).collect();
         let instances = order.slots.iter().map(|&slot| slots.slots[slot as usize].first_instance);
         let seen: Vec<u32> = instances.filter(|instance| listed.contains(instance)).collect();

@@ -3,18 +3,20 @@
 //! A variant is data: defines and specialization constants. Pipelines that several methods share are made once.
 
 mod debug;
+mod requirements;
 
 pub use debug::DebugPipelines;
+pub use requirements::check_device;
 
+use crate::Result;
 use crate::assign::Assigner;
-use crate::config::{Config, Culling, Marking};
+use crate::config::{Culling, Marking};
 use crate::draw_list::SurfaceKind;
 use crate::layouts::Layouts;
 use crate::lights::Attenuation;
-use crate::methods::{MethodSpec, Space};
+use crate::methods::{MethodSpec, Sharing, Space};
 use crate::scene::Vertex;
 use crate::vk::{self as gpu, Context, GraphicsDesc, Pipeline, ShaderLibrary};
-use crate::{Error, Result};
 use ash::vk;
 use std::collections::BTreeMap;
 use std::mem::offset_of;
@@ -34,6 +36,8 @@ pub struct Variant {
     pub samples: u32,
     /// Where instances are culled.
     pub culling: Culling,
+    /// Whether geometry passes draw all views at once.
+    pub multiview: bool,
     /// Marking from depth shades per sample, marking from geometry per fragment.
     pub marking: Marking,
     /// How the lists are built.
@@ -48,6 +52,18 @@ impl Variant {
     /// Whether fragments run once per sample, so that they lie where the depth buffer says.
     fn per_sample(&self) -> bool {
         self.samples > 1 && self.marking == Marking::Depth
+    }
+
+    /// Whether a graphics pipeline draws all views at once: the prepass, and what is shaded in any order through the one
+    /// clustering that all views share.
+    fn draws_all_views(&self, output: Output) -> bool {
+        let one_clustering = !matches!(self.method, MethodSpec::Clustered { sharing: Sharing::Indi, .. });
+        self.multiview
+            && match output {
+                Output::Depth => true,
+                Output::Shades(kind) => one_clustering && kind != SurfaceKind::Transparent,
+                Output::Marks(_) | Output::Counts(_) => false,
+            }
     }
 
     /// The defines of every shader of this variant.
@@ -170,6 +186,7 @@ pub struct PipelineStore {
     context: Arc<Context>,
     layouts: Arc<Layouts>,
     shaders: ShaderLibrary,
+    views: usize,
     made: BTreeMap<String, Arc<Pipeline>>,
 }
 
@@ -187,9 +204,9 @@ enum Output {
 }
 
 impl PipelineStore {
-    /// An empty store.
-    pub fn new(context: &Arc<Context>, layouts: &Arc<Layouts>, shaders: ShaderLibrary) -> Self {
-        Self { context: context.clone(), layouts: layouts.clone(), shaders, made: BTreeMap::new() }
+    /// An empty store, for pipelines that draw `views` views.
+    pub fn new(context: &Arc<Context>, layouts: &Arc<Layouts>, shaders: ShaderLibrary, views: usize) -> Self {
+        Self { context: context.clone(), layouts: layouts.clone(), shaders, views, made: BTreeMap::new() }
     }
 
     /// All pipelines of a variant.
@@ -301,7 +318,9 @@ impl PipelineStore {
         fragment: Option<&str>,
         output: Output,
     ) -> Result<Arc<Pipeline>> {
-        let defines = graphics_defines(variant, fragment.is_some(), output);
+        let at_once = self.views > 1 && variant.draws_all_views(output);
+        let views = if at_once { self.views } else { 0 };
+        let defines = graphics_defines(variant, fragment.is_some(), output).with("VIEWS", views);
         let key = format!("{fragment:?} {output:?} {:?} {defines:?}", variant.attenuation);
         if let Some(made) = self.made.get(&key) {
             return Ok(made.clone());
@@ -391,31 +410,4 @@ fn vertex_attributes(varyings: u32) -> Vec<vk::VertexInputAttributeDescription> 
             offset: offset as u32,
         })
         .collect()
-}
-
-/// Refuses what the device cannot do, before anything is made.
-pub fn check_device(context: &Context, config: &Config) -> Result<()> {
-    let limits = &context.limits;
-    let (samples, marking) = (config.msaa, config.marking);
-    if !limits.sample_counts.contains(&samples) {
-        return Err(Error::Device(format!(
-            "{} cannot render {samples} samples per pixel (it can: {:?}): change --msaa",
-            context.info.name, limits.sample_counts
-        )));
-    }
-    if samples > 1 && marking == Marking::Depth && !limits.sample_rate_shading {
-        return Err(Error::Device(format!(
-            "{} cannot shade per sample, which marking from depth needs with MSAA: use --marking geometry",
-            context.info.name
-        )));
-    }
-    let indirect = limits.max_draw_indirect_count > 1 && limits.draw_indirect_first_instance;
-    if config.culling == Culling::Gpu && !indirect {
-        return Err(Error::Device(format!(
-            "{} lacks multiDrawIndirect or drawIndirectFirstInstance, which culling on the device needs: use --culling \
-             cpu",
-            context.info.name
-        )));
-    }
-    Ok(())
 }

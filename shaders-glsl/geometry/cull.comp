@@ -1,8 +1,8 @@
-// Which instances views may see, as the indirect commands that draw them.
+// Which instances a view may see, as the indirect commands that draw them.
 //
-// A thread takes a whole slot, so that its instances keep their order without a prefix sum. push.view is the first view
-// asked for, push.step how many follow: opaque and masked slots are for all of them, at the place of the first, and seen
-// where any sees them; transparent ones are for each by itself, in its own order.
+// A thread takes a whole slot, so that its instances keep their order without a prefix sum. push.view is the view; where
+// push.step is over 1, it is the first of so many views that a pass draws at once. Their commands come behind those of
+// single views, hold no transparent slots, and draw what any view sees once for each view (see geometry/surface.vert).
 #version 460
 #include "generated/gpu_interface.glsl"
 
@@ -33,26 +33,21 @@ bool any_may_see(uint first_view, uint view_count, uint instance)
 void main()
 {
     uint surfaces = draw_counts.surfaces, transparents = draw_counts.transparents;
-    uint thread = gl_GlobalInvocationID.x;
-    if (thread >= surfaces + push.step * transparents)
+    bool at_once = push.step > 1u;
+    uint command = gl_GlobalInvocationID.x;
+    if (command >= surfaces + (at_once ? 0u : transparents))
         return;
-    uint view = push.view, view_count = push.step, command = thread, slot = thread;
-    if (thread >= surfaces) {
-        uint place = (thread - surfaces) % transparents;
-        view = push.view + (thread - surfaces) / transparents;
-        view_count = 1u;
-        command = surfaces + place;
-        slot = draw_order[view * transparents + place];
-    }
+    uint slot = command < surfaces ? command : draw_order[push.view * transparents + command - surfaces];
+    uint list = at_once ? push.step : push.view;
     DrawCommand draw = draw_slots[slot];
-    uint first_drawn = view * draw_counts.instances + draw.first_instance;
+    uint first_drawn = list * draw_counts.instances + draw.first_instance;
     uint drawn = 0u;
     for (uint i = 0u; i < draw.instance_count; ++i) {
         uint instance = draw.first_instance + i;
-        if (any_may_see(view, view_count, instance))
+        if (any_may_see(push.view, push.step, instance))
             drawn_instances[first_drawn + drawn++] = instance;
     }
-    draw.instance_count = drawn;
-    draw.first_instance = first_drawn;
-    draw_commands[view * (surfaces + transparents) + command] = draw;
+    draw.instance_count = drawn * push.step;
+    draw.first_instance = first_drawn * push.step;
+    draw_commands[list * (surfaces + transparents) + command] = draw;
 }

@@ -87,6 +87,11 @@ pub struct Layer {
     #[arg(long, value_enum)]
     pub culling: Option<Culling>,
 
+    /// Draw all views in one pass: the prepass, and opaque and masked shading where the views share a clustering. What
+    /// is seen is the same.
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
+    pub multiview: Option<bool>,
+
     /// Frames to render: A..B/STEP leaves B out; also A.., ..B, /STEP, or one number.
     #[arg(long, value_name = "A..B/STEP")]
     #[serde(default)]
@@ -177,6 +182,7 @@ impl Config {
         set(&mut self.resolution, layer.resolution);
         set(&mut self.msaa, layer.msaa);
         set(&mut self.culling, layer.culling);
+        set(&mut self.multiview, layer.multiview);
         set(&mut self.frames, layer.frames);
         set(&mut self.runs, layer.runs);
         set(&mut self.exr, layer.exr);

@@ -185,6 +185,8 @@ pub struct Config {
     pub msaa: u32,
     /// Where instances are culled.
     pub culling: Culling,
+    /// Prepass and shading draw all views at once.
+    pub multiview: bool,
     /// Frames to render.
     pub frames: FrameRange,
     /// Temporal runs.
@@ -233,6 +235,7 @@ impl Default for Config {
             resolution: [320, 180],
             msaa: 1,
             culling: Culling::Gpu,
+            multiview: false,
             frames: FrameRange { first: 0, end: None, step: 40 },
             runs: 2,
             exr: ExrFrames::List(Vec::new()),

@@ -103,7 +103,7 @@ impl Access {
         Self { resource: Resource::Buffer(buffer), usage }
     }
 
-    /// A whole image with one mip level.
+    /// A whole image with one mip level, all its layers.
     pub fn image(image: vk::Image, aspect: vk::ImageAspectFlags, usage: Use) -> Self {
         Self { resource: Resource::Image(image, aspect), usage }
     }
@@ -225,7 +225,7 @@ impl Tracker {
                         vk::ImageSubresourceRange::default()
                             .aspect_mask(aspect)
                             .level_count(1)
-                            .layer_count(1),
+                            .layer_count(vk::REMAINING_ARRAY_LAYERS),
                     ),
             ),
         }

@@ -1,16 +1,17 @@
 //! Drawing the scene: what every geometry pass shares.
 
 use crate::draw_list::{DrawRun, SurfaceKind};
-use crate::frame::{Draws, Frame};
+use crate::frame::{Draws, Eyes, Frame, Layer};
 use crate::gpu_interface::{DrawCommand, SET_BUFFERS, SET_MATERIAL};
 use crate::pass::{Access, Recorder, Use};
 use crate::vk::{Buffer, Pipeline};
 use ash::vk;
 
-/// Opens dynamic rendering over a whole view and sets the viewport (flipped, so that +Y stays up).
+/// Opens dynamic rendering over whole views and sets the viewport (flipped, so that +Y stays up).
 pub fn begin_rendering(
     r: &mut Recorder,
     frame: &Frame,
+    eyes: Eyes,
     color: Option<&vk::RenderingAttachmentInfo>,
     depth: &vk::RenderingAttachmentInfo,
 ) {
@@ -30,7 +31,10 @@ pub fn begin_rendering(
         min_depth: 0.0,
         max_depth: 1.0,
     };
-    let mut info = vk::RenderingInfo::default().render_area(area).layer_count(1).depth_attachment(depth);
+    let mut info = vk::RenderingInfo::default()
+        .render_area(area)
+        .layer_count(frame.view_count(eyes))
+        .depth_attachment(depth);
     if let Some(color) = color {
         info = info.color_attachments(std::slice::from_ref(color));
     }
@@ -49,44 +53,53 @@ pub fn end_rendering(r: &Recorder) {
     unsafe { r.context.device.cmd_end_rendering(r.commands) };
 }
 
-/// The depth attachment of a view: cleared to far, or kept for testing alone.
-pub fn depth_attachment(frame: &Frame, view: usize, clear: bool) -> vk::RenderingAttachmentInfo<'static> {
+/// What is attached of a view's image: its layer, or all layers for all views.
+pub fn attached(layer: &Layer, eyes: Eyes) -> vk::ImageView {
+    match eyes {
+        Eyes::One(_) => layer.view,
+        Eyes::All => layer.image.view,
+    }
+}
+
+/// The depth attachment of some views: cleared to far, or kept for testing alone.
+pub fn depth_attachment(frame: &Frame, eyes: Eyes, clear: bool) -> vk::RenderingAttachmentInfo<'static> {
     let (layout, load) = if clear {
         (vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL, vk::AttachmentLoadOp::CLEAR)
     } else {
         (vk::ImageLayout::DEPTH_READ_ONLY_OPTIMAL, vk::AttachmentLoadOp::LOAD)
     };
     vk::RenderingAttachmentInfo::default()
-        .image_view(frame.targets[view].depth.view)
+        .image_view(attached(&frame.targets[eyes.first()].depth, eyes))
         .image_layout(layout)
         .load_op(load)
         .store_op(if clear { vk::AttachmentStoreOp::STORE } else { vk::AttachmentStoreOp::NONE })
         .clear_value(vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth: 0.0, stencil: 0 } })
 }
 
-/// Draws one kind of surface of a view with one pipeline; material textures are bound where the pipeline reads them.
+/// Draws one kind of surface with one pipeline; material textures are bound where the pipeline reads them.
 pub fn draw(
     r: &Recorder,
     frame: &Frame,
-    view: usize,
+    eyes: Eyes,
     pipeline: &Pipeline,
     (kind, textured): (SurfaceKind, bool),
 ) {
-    if !frame.draws.any(view, kind) {
+    if !frame.draws_any(eyes, kind) {
         return;
     }
-    frame.bind(r, vk::PipelineBindPoint::GRAPHICS, pipeline, view);
+    let (list, views) = (frame.list_of(eyes), frame.view_count(eyes));
+    frame.bind(r, vk::PipelineBindPoint::GRAPHICS, pipeline, eyes.first());
     let mut state = SurfaceState { textured, material: None, facing: None };
     match &frame.draws {
         Draws::Listed(lists) => {
-            for run in lists[view].runs(kind) {
+            for run in lists[list].runs(kind) {
                 state.set(r, frame, run.batch);
-                draw_run(r, frame, run);
+                draw_run(r, frame, run, views);
             }
         }
         Draws::Indirect { slots, orders, buffers } => {
-            let part = view * slots.slots.len();
-            for group in orders[view].groups(slots, kind) {
+            let part = list * slots.slots.len();
+            for group in orders[list].groups(slots, kind) {
                 state.set(r, frame, group.batch);
                 draw_commands(r, &buffers.commands, part as u64 + u64::from(group.first), group.count);
             }
@@ -94,16 +107,17 @@ pub fn draw(
     }
 }
 
-fn draw_run(r: &Recorder, frame: &Frame, run: &DrawRun) {
+/// Draws every instance of a run once for each view.
+fn draw_run(r: &Recorder, frame: &Frame, run: &DrawRun, views: u32) {
     let batch = &frame.scene.batches[run.batch as usize];
     unsafe {
         r.context.device.cmd_draw_indexed(
             r.commands,
             batch.index_count,
-            run.instance_count,
+            views * run.instance_count,
             batch.first_index,
             batch.vertex_offset,
-            run.first_instance,
+            views * run.first_instance,
         );
     }
 }
@@ -142,16 +156,6 @@ impl SurfaceState {
     }
 }
 
-impl Draws<'_> {
-    /// Whether a view draws surfaces of a kind; where the device culls, whether there are any.
-    pub fn any(&self, view: usize, kind: SurfaceKind) -> bool {
-        match self {
-            Self::Listed(lists) => !lists[view].runs(kind).is_empty(),
-            Self::Indirect { slots, orders, .. } => !orders[view].groups(slots, kind).is_empty(),
-        }
-    }
-}
-
 fn set_facing(r: &Recorder, mirrored: bool, double_sided: bool) {
     let cull = if double_sided { vk::CullModeFlags::NONE } else { vk::CullModeFlags::BACK };
     let front = if mirrored { vk::FrontFace::CLOCKWISE } else { vk::FrontFace::COUNTER_CLOCKWISE };
@@ -162,6 +166,15 @@ fn set_facing(r: &Recorder, mirrored: bool, double_sided: bool) {
 }
 
 impl Frame<'_> {
+    /// Whether a pass draws surfaces of a kind; where the device culls, whether there are any.
+    pub fn draws_any(&self, eyes: Eyes, kind: SurfaceKind) -> bool {
+        let list = self.list_of(eyes);
+        match &self.draws {
+            Draws::Listed(lists) => !lists[list].runs(kind).is_empty(),
+            Draws::Indirect { slots, orders, .. } => !orders[list].groups(slots, kind).is_empty(),
+        }
+    }
+
     /// Binds a pipeline with the buffers and the number of `view`.
     pub fn bind(&self, r: &Recorder, point: vk::PipelineBindPoint, pipeline: &Pipeline, view: usize) {
         let clustering = self.clustering_of_view(view);

@@ -26,6 +26,7 @@ pub struct Engine {
     context: Arc<Context>,
     method: MethodSpec,
     culling: Culling,
+    multiview: bool,
     marking: Marking,
     assigner: Assigner,
     resolution: [u32; 2],
@@ -61,6 +62,7 @@ pub fn variant(config: &Config, method: MethodSpec, mode: &Mode) -> Variant {
         method,
         samples: config.msaa,
         culling: config.culling,
+        multiview: config.multiview,
         marking: config.marking,
         assigner: assigner(method, mode),
         attenuation: config.attenuation,
@@ -111,6 +113,7 @@ impl Engine {
             context: session.context.clone(),
             method,
             culling: config.culling,
+            multiview: config.multiview && session.targets.len() > 1,
             marking: config.marking,
             assigner: assigner(method, &mode),
             resolution: config.resolution,
@@ -224,6 +227,7 @@ impl Engine {
             targets: &session.targets,
             clusterings: &self.clusterings,
             clustered: self.method != MethodSpec::AllLights,
+            multiview: self.multiview,
             marking: self.marking,
             assigner: self.assigner,
             lights: &self.lights,
@@ -265,8 +269,11 @@ impl Engine {
         }
         match self.culling {
             Culling::Cpu => {
-                for (view, list) in plan.views.iter().zip(&mut this.draw_lists) {
+                for (view, list) in plan.views.chunks(1).zip(&mut this.draw_lists) {
                     list.update(&session.batches, view);
+                }
+                if self.multiview {
+                    this.draw_lists[plan.views.len()].update(&session.batches, &plan.views);
                 }
             }
             Culling::Gpu => {

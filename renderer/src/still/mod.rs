@@ -152,8 +152,9 @@ pub fn render(
     show: &Show,
 ) -> Result<Still> {
     show.check(&run.method)?;
-    // What is seen is the same wherever it is culled, and the host's lists are at hand for a camera of the still's own.
-    let config = &Config { culling: Culling::Cpu, ..config.clone() };
+    // What is seen is the same wherever it is culled and however it is drawn, and a camera of the still's own needs a list
+    // and a pass of its own.
+    let config = &Config { culling: Culling::Cpu, multiview: false, ..config.clone() };
     let plans = plan_frames(config, &inputs.recording, &run.method)?;
     let plan = &plans[0];
     let names = inputs.recording.view_names();
@@ -230,7 +231,7 @@ impl Painter<'_> {
             Camera::BirdsEye => {
                 let slot = &mut session.slots[SLOT];
                 slot.views.write(0, &[view_data(eye, None, self.config.resolution, session.reach)]);
-                slot.draw_lists[0].update(&session.batches, eye);
+                slot.draw_lists[0].update(&session.batches, std::slice::from_ref(eye));
                 (0, 1, all)
             }
         };

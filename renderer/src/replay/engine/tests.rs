@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::config::Lighting;
+use crate::frame::Eyes;
 use crate::geometry::{ClusterSpace, Frustum, Grid, SphereTest};
 use crate::methods::{Sharing, Space};
 use crate::passes::{assign, depth, readback, scan};
@@ -261,7 +262,7 @@ fn staged_times(bench: &mut Bench, compute: u32, raster: u32) -> [f64; 2] {
     for _ in 0..4 {
         bench.run(|r, frame| {
             r.scope("frame", |r| {
-                crate::passes::cull::record(r, frame, 0);
+                crate::passes::cull::record(r, frame, Eyes::One(0));
                 r.scope("compute", |r| {
                     for _ in 0..compute {
                         assign::count_lights(r, frame, 0);
@@ -269,7 +270,7 @@ fn staged_times(bench: &mut Bench, compute: u32, raster: u32) -> [f64; 2] {
                 });
                 r.scope("raster", |r| {
                     for _ in 0..raster {
-                        depth::record(r, frame, 0);
+                        depth::record(r, frame, Eyes::One(0));
                     }
                 });
             });

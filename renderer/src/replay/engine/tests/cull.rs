@@ -34,7 +34,7 @@ fn drawn(bench: &mut Bench) -> (Vec<u32>, Vec<DrawCommand>) {
     let read = |size| Buffer::new(&context, "test result", size, usage, Memory::Readback).unwrap();
     let (commands, instances) = (read(commands), read(instances));
     bench.run(|r, frame| {
-        cull::record(r, frame, 0);
+        cull::record(r, frame, Eyes::One(0));
         let Draws::Indirect { buffers, .. } = &frame.draws else { panic!("the device culls by default") };
         readback::copy(r, &buffers.commands, &commands, 0, commands.size);
         readback::copy(r, &buffers.drawn_instances, &instances, 0, instances.size);
