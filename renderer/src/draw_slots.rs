@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! slots:     opaque | masked | transparent        (of the scene)
-//! commands:  opaque | masked | transparent, far to near        (of each view; those of nothing seen draw nothing)
+//! commands:  opaque | masked | transparent, far to near        (of each view; what is not seen draws nothing)
 //! ```
 //!
 //! The host sorts transparent slots, whether seen or not, and records one draw of many commands for neighbours that share

@@ -161,7 +161,7 @@ gpu_struct! {
         pub first_index: u32,
         /// Added to every index.
         pub vertex_offset: i32,
-        /// Of a slot: into the instances. Of a command: into the drawn instances.
+        /// Of a slot: into the instances. Of a command: into the drawn instances, times the views drawn at once.
         pub first_instance: u32,
     }
 }
