@@ -5,7 +5,8 @@
 //! ```
 
 use crate::assign::{self, Assigner};
-use crate::frame::SLOTS;
+use crate::culling::ViewPlanes;
+use crate::frame::{DrawBuffers, SLOTS};
 use crate::geometry::{ClusterSpace, Grid};
 use crate::gpu_interface::{
     ASSIGN_GROUP, BLOCK_WORDS, BUFFERS, COUNTER_COUNT, Candidate, ClusterGroup, ClusteringState,
@@ -14,7 +15,7 @@ use crate::gpu_interface::{
 };
 use crate::layouts::{DescriptorSets, Layouts, write_buffer_set};
 use crate::measure::Capacities;
-use crate::views::Pose;
+use crate::views::{Pose, View};
 use crate::vk::{Buffer, Context, Limits, Memory};
 use crate::{Error, Result};
 use ash::vk;
@@ -272,6 +273,12 @@ pub struct SharedBuffers<'a> {
     pub materials: &'a Buffer,
     /// The scene's instances.
     pub instances: &'a Buffer,
+    /// Its draw slots.
+    pub draw_slots: &'a Buffer,
+    /// Their counts and order, a buffer per frame in flight.
+    pub draw_order: [&'a Buffer; SLOTS],
+    /// What stage `cull` fills.
+    pub draws: &'a DrawBuffers,
 }
 
 /// One clustering on the device.
@@ -357,6 +364,10 @@ fn handles(
         &b.block_bits,
         &b.light_bits,
         &b.candidates,
+        shared.draw_slots,
+        shared.draw_order[slot],
+        &shared.draws.commands,
+        &shared.draws.drawn_instances,
     ]
     .map(|buffer| buffer.handle)
 }
@@ -421,8 +432,9 @@ fn rigid_inverse(pose: &Pose) -> [[f32; 4]; 4] {
     pose.inverse().to_matrix().as_mat4().to_cols_array_2d()
 }
 
-/// A view as shaders read it; `grid` is what it looks lights up in.
-pub fn view_data(view: &crate::views::View, grid: Option<&Grid>, resolution: [u32; 2]) -> ViewData {
+/// A view as shaders read it; `grid` is what it looks lights up in, and no instance reaches farther than `reach` metres
+/// from the world's origin.
+pub fn view_data(view: &View, grid: Option<&Grid>, resolution: [u32; 2], reach: f64) -> ViewData {
     let f = &view.frustum;
     let view_from_world = view.pose.inverse().to_matrix();
     let world_from_view = view.pose.to_matrix();
@@ -437,5 +449,6 @@ pub fn view_data(view: &crate::views::View, grid: Option<&Grid>, resolution: [u3
         resolution,
         near: -f.z1 as f32,
         far: -f.z0 as f32,
+        planes: ViewPlanes::new(view).for_device(reach),
     }
 }

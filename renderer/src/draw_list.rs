@@ -1,9 +1,9 @@
 //! What a view draws: instances grouped into batches, culled against the view's frustum, transparent ones
-//! sorted from far to near. Pure: no Vulkan.
+//! sorted from far to near. Pure: no Vulkan. [`crate::draw_slots`] leaves culling to the device.
 
-use crate::scene::{AlphaMode, Bounds, Instance, Scene};
+use crate::culling::{ViewPlanes, WorldBox};
+use crate::scene::{AlphaMode, Instance, Scene};
 use crate::views::View;
-use glam::{DVec3, DVec4};
 
 /// How the surfaces of a draw are treated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -61,25 +61,6 @@ pub struct DrawRun {
     pub instance_count: u32,
 }
 
-/// World-space box around an instance, metres.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct WorldBox {
-    center: DVec3,
-    half_extent: DVec3,
-}
-
-impl WorldBox {
-    fn new(instance: &Instance, bounds: &Bounds) -> Self {
-        let matrix = instance.world_from_object.as_dmat4();
-        let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
-        let half = (max - min) * 0.5;
-        let half_extent = matrix.x_axis.truncate().abs() * half.x
-            + matrix.y_axis.truncate().abs() * half.y
-            + matrix.z_axis.truncate().abs() * half.z;
-        Self { center: matrix.transform_point3((min + max) * 0.5), half_extent }
-    }
-}
-
 /// A scene's instances in drawing order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Batches {
@@ -88,8 +69,9 @@ pub struct Batches {
     /// Instances of [`Scene::instances`] in drawing order.
     pub instances: Vec<u32>,
     /// Each instance's batch, in drawing order.
-    batch_of: Vec<u32>,
-    boxes: Vec<WorldBox>,
+    pub batch_of: Vec<u32>,
+    /// Each instance's box, in drawing order.
+    pub boxes: Vec<WorldBox>,
 }
 
 impl Batches {
@@ -125,6 +107,11 @@ impl Batches {
         result
     }
 
+    /// No instance reaches farther from the world's origin, metres.
+    pub fn reach(&self) -> f64 {
+        self.boxes.iter().map(WorldBox::reach).fold(0.0, f64::max)
+    }
+
     fn run(&self, instance: usize) -> DrawRun {
         DrawRun { batch: self.batch_of[instance], first_instance: instance as u32, instance_count: 1 }
     }
@@ -140,6 +127,7 @@ pub struct DrawList {
     /// From far to near.
     pub transparent: Vec<DrawRun>,
     far_to_near: Vec<(f64, u32)>,
+    planes: Vec<ViewPlanes>,
 }
 
 impl DrawList {
@@ -152,15 +140,16 @@ impl DrawList {
         }
     }
 
-    /// Refills the list with what `view` may see.
-    pub fn update(&mut self, batches: &Batches, view: &View) {
+    /// Refills the list with what any of `views` may see; transparent instances are sorted for the first of them.
+    pub fn update(&mut self, batches: &Batches, views: &[View]) {
         self.opaque.clear();
         self.masked.clear();
         self.transparent.clear();
         self.far_to_near.clear();
-        let planes = world_planes(view);
+        self.planes.clear();
+        self.planes.extend(views.iter().map(ViewPlanes::new));
         for (instance, bounds) in batches.boxes.iter().enumerate() {
-            if !may_see(&planes, bounds) {
+            if !self.planes.iter().any(|planes| planes.may_see(bounds)) {
                 continue;
             }
             let run = batches.run(instance);
@@ -168,14 +157,19 @@ impl DrawList {
                 SurfaceKind::Opaque => append(&mut self.opaque, run),
                 SurfaceKind::Masked => append(&mut self.masked, run),
                 SurfaceKind::Transparent => {
-                    let distance = bounds.center.distance_squared(view.pose.position);
+                    let distance = bounds.center.distance_squared(views[0].pose.position);
                     self.far_to_near.push((distance, instance as u32));
                 }
             }
         }
-        self.far_to_near.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        sort_far_to_near(&mut self.far_to_near);
         self.transparent.extend(self.far_to_near.iter().map(|&(_, i)| batches.run(i as usize)));
     }
+}
+
+/// Sorts (squared distance, what is drawn) from far to near, equal distances by what is drawn.
+pub fn sort_far_to_near(items: &mut [(f64, u32)]) {
+    items.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
 }
 
 /// Appends a run, joined with the last one where the two are neighbours in one batch.
@@ -188,29 +182,4 @@ fn append(runs: &mut Vec<DrawRun>, run: DrawRun) {
         return;
     }
     runs.push(run);
-}
-
-/// The six planes of a view in world space: (inward normal, offset); a point p is inside where n.p + o >= 0.
-fn world_planes(view: &View) -> [DVec4; 6] {
-    let f = &view.frustum;
-    let local = [
-        (DVec3::new(1.0, 0.0, f.x0), 0.0),
-        (DVec3::new(-1.0, 0.0, -f.x1), 0.0),
-        (DVec3::new(0.0, 1.0, f.y0), 0.0),
-        (DVec3::new(0.0, -1.0, -f.y1), 0.0),
-        (DVec3::new(0.0, 0.0, -1.0), f.z1),
-        (DVec3::new(0.0, 0.0, 1.0), -f.z0),
-    ];
-    local.map(|(normal, offset)| {
-        let world = view.pose.rotation * normal;
-        world.extend(offset - world.dot(view.pose.position))
-    })
-}
-
-/// False only where the box lies wholly outside a plane.
-fn may_see(planes: &[DVec4; 6], bounds: &WorldBox) -> bool {
-    planes.iter().all(|plane| {
-        let normal = plane.truncate();
-        normal.dot(bounds.center) + plane.w >= -normal.abs().dot(bounds.half_extent)
-    })
 }

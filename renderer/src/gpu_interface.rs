@@ -8,6 +8,9 @@
 //!               (transform_lights)             └──────────────────────────> light_indices (assign_lights) <──┘
 //! ```
 //!
+//! Where the device culls, `views`, `instances`, `draw_slots` and `draw_order` go to `draw_commands` and
+//! `drawn_instances` before all that (cull).
+//!
 //! All ways go to `list_lengths` by way of `light_masks` where these have room. Hierarchy and scatter first put the lights
 //! that may meet a visible cluster into `candidates` (cull_lights: `block_bits`, `light_bits`); then the hierarchy makes
 //! `sort_items`, `digit_counts`, `tree_spheres`, `tree_lights` and `light_nodes`, scatter `groups`, `tile_groups` and
@@ -36,6 +39,8 @@ gpu_struct! {
         pub near: f32,
         /// Metres, positive.
         pub far: f32,
+        /// Inward unit normal and offset of each side, world space, moved out by what rounding may cost.
+        pub planes: [[f32; 4]; 6],
     }
 }
 
@@ -140,6 +145,38 @@ gpu_struct! {
         pub world_from_object: [[f32; 4]; 4],
         /// Into the materials.
         pub material: u32,
+        /// Middle of the box around it, world space, metres.
+        pub box_center: [f32; 3],
+        /// Half the size of that box, metres.
+        pub box_half_extent: [f32; 3],
+    }
+}
+
+gpu_struct! {
+    /// An indirect draw, as the device takes it (VkDrawIndexedIndirectCommand).
+    pub struct DrawCommand {
+        /// Indices of the primitive.
+        pub index_count: u32,
+        /// Instances drawn.
+        pub instance_count: u32,
+        /// Into the indices.
+        pub first_index: u32,
+        /// Added to every index.
+        pub vertex_offset: i32,
+        /// Of a slot: into the instances. Of a command: into the drawn instances, times the views drawn at once.
+        pub first_instance: u32,
+    }
+}
+
+gpu_struct! {
+    /// How much a scene draws where the device culls.
+    pub struct DrawCounts {
+        /// Slots of opaque and masked geometry.
+        pub surfaces: u32,
+        /// Slots of transparent geometry, behind those.
+        pub transparents: u32,
+        /// Instances of all slots.
+        pub instances: u32,
     }
 }
 
@@ -248,10 +285,14 @@ pub enum Binding {
     BlockBits,
     LightBits,
     Candidates,
+    DrawSlots,
+    DrawOrder,
+    DrawCommands,
+    DrawnInstances,
 }
 
 /// Every buffer as (binding, access, GLSL member).
-pub const BUFFERS: [(Binding, &str, &str); 28] = [
+pub const BUFFERS: [(Binding, &str, &str); 32] = [
     (Binding::Views, "readonly", "ViewData views[]"),
     (Binding::Grid, "readonly", "GridData grid"),
     (Binding::Lights, "readonly", "LightData lights[]"),
@@ -280,6 +321,10 @@ pub const BUFFERS: [(Binding, &str, &str); 28] = [
     (Binding::BlockBits, "", "uint block_bits[]"),
     (Binding::LightBits, "", "uint light_bits[]"),
     (Binding::Candidates, "", "Candidate candidates[]"),
+    (Binding::DrawSlots, "readonly", "DrawCommand draw_slots[]"),
+    (Binding::DrawOrder, "readonly", "DrawCounts draw_counts; uint draw_order[]"),
+    (Binding::DrawCommands, "", "DrawCommand draw_commands[]"),
+    (Binding::DrawnInstances, "", "uint drawn_instances[]"),
 ];
 
 /// What scatter keeps in buffers of the hierarchy, which never runs beside it: devices bind few buffers.
@@ -301,6 +346,8 @@ pub const SCAN_GROUP: u32 = 256;
 pub const SCAN_BLOCK: u32 = 1024;
 /// Threads of a workgroup of the assignment passes; visible clusters of a group, lights of a tile.
 pub const ASSIGN_GROUP: u32 = 64;
+/// Threads of a workgroup of culling.
+pub const CULL_GROUP: u32 = 64;
 /// Tiles along x of a dispatch; more go along y.
 pub const TILE_ROW: u32 = 1 << 15;
 /// The same of lists that have a workgroup each.
@@ -373,7 +420,7 @@ const COUNTERS: [(&str, Counter); COUNTER_COUNT] = [
     ("COUNTER_INTERSECTION_TESTS", Counter::IntersectionTests),
 ];
 
-const CONSTANTS: [(&str, u32); 25] = [
+const CONSTANTS: [(&str, u32); 26] = [
     ("SET_BUFFERS", SET_BUFFERS),
     ("SET_MATERIAL", SET_MATERIAL),
     ("SET_DEPTH", SET_DEPTH),
@@ -390,6 +437,7 @@ const CONSTANTS: [(&str, u32); 25] = [
     ("DISPATCH_UNMASKED", DISPATCH_UNMASKED),
     ("DISPATCH_MEET", DISPATCH_MEET),
     ("DISPATCH_MEET_AGAIN", DISPATCH_MEET_AGAIN),
+    ("CULL_GROUP", CULL_GROUP),
     ("DISPATCH_SCAN", DISPATCH_SCAN),
     ("DISPATCH_GROUPS", DISPATCH_GROUPS),
     ("DISPATCH_SORT", DISPATCH_SORT),
@@ -402,11 +450,12 @@ const CONSTANTS: [(&str, u32); 25] = [
 ];
 
 /// Names of what shader variants choose among; the value is the position.
-const VARIANT_NAMES: [&[&str]; 4] = [
+const VARIANT_NAMES: [&[&str]; 5] = [
     &["SPACE_PERSPECTIVE", "SPACE_ORTHOGRAPHIC"],
     &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS", "SCAN_DIGITS", "SCAN_LIGHTS", "SCAN_GROUPS"],
     &["ASSIGN_BRUTE", "ASSIGN_HIERARCHY", "ASSIGN_SCATTER"],
     &["LOOKUP_ALL_LIGHTS", "LOOKUP_CLUSTERED"],
+    &["CULLING_CPU", "CULLING_GPU"],
 ];
 
 /// The include that declares all of this to shaders.
@@ -436,6 +485,8 @@ pub fn glsl() -> String {
         LightData::GLSL,
         MaterialData::GLSL,
         InstanceData::GLSL,
+        DrawCommand::GLSL,
+        DrawCounts::GLSL,
         ClusteringState::GLSL,
         DispatchSize::GLSL,
         PixelData::GLSL,
@@ -476,6 +527,8 @@ mod tests {
             LightData::INFO,
             MaterialData::INFO,
             InstanceData::INFO,
+            DrawCommand::INFO,
+            DrawCounts::INFO,
             ClusteringState::INFO,
             DispatchSize::INFO,
             PixelData::INFO,

@@ -1,7 +1,9 @@
 //! A scene on the device: vertices, indices, materials, instances, textures.
 
 use crate::Result;
+use crate::culling::WorldBox;
 use crate::draw_list::{Batch, Batches};
+use crate::draw_slots::DrawSlots;
 use crate::gpu_interface::{InstanceData, MaterialData};
 use crate::layouts::{DescriptorSets, Layouts, MATERIAL_TEXTURES};
 use crate::scene::{Image, Material, Sampler, Scene, TextureRef, TextureSlot, Wrap};
@@ -19,6 +21,8 @@ pub struct GpuScene {
     pub materials: Buffer,
     /// [`InstanceData`] in drawing order.
     pub instances: Buffer,
+    /// What is drawn where the device culls, as [`DrawSlots::slots`] has it.
+    pub draw_slots: Buffer,
     /// What can be drawn at once.
     pub batches: Vec<Batch>,
     /// The textures of each material.
@@ -29,12 +33,18 @@ pub struct GpuScene {
 }
 
 impl GpuScene {
-    /// Uploads `scene`, its instances in the order of `batches`.
-    pub fn new(context: &Arc<Context>, layouts: &Layouts, scene: &Scene, batches: &Batches) -> Result<Self> {
+    /// Uploads `scene`, its instances in the order of `batches`, with what `slots` draws of them.
+    pub fn new(
+        context: &Arc<Context>,
+        layouts: &Layouts,
+        scene: &Scene,
+        (batches, slots): (&Batches, &DrawSlots),
+    ) -> Result<Self> {
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
         let materials: Vec<MaterialData> = scene.materials.iter().map(material_data).collect();
+        let placed = batches.instances.iter().zip(&batches.boxes);
         let instances: Vec<InstanceData> =
-            batches.instances.iter().map(|&i| instance_data(scene, i as usize)).collect();
+            placed.map(|(&i, bounds)| instance_data(scene, i as usize, bounds)).collect();
         let samplers = SamplerCache::new(context)?;
         let mut textures = gpu::upload_textures(context, &scene.images)?;
         textures.extend(gpu::upload_textures(context, &neutral_images())?);
@@ -64,6 +74,7 @@ impl GpuScene {
             )?,
             materials: Buffer::with_data(context, "materials", storage, &materials)?,
             instances: Buffer::with_data(context, "instances", storage, &instances)?,
+            draw_slots: Buffer::with_data(context, "draw slots", storage, &slots.slots)?,
             batches: batches.batches.clone(),
             material_sets: sets.sets.clone(),
             _sets: sets,
@@ -99,11 +110,13 @@ fn normal_scale(material: &Material) -> f32 {
     if material.textures[TextureSlot::Normal as usize].is_some() { material.normal_scale } else { 0.0 }
 }
 
-fn instance_data(scene: &Scene, index: usize) -> InstanceData {
+fn instance_data(scene: &Scene, index: usize, bounds: &WorldBox) -> InstanceData {
     let instance = &scene.instances[index];
     InstanceData {
         world_from_object: instance.world_from_object.to_cols_array_2d(),
         material: scene.primitives[instance.primitive as usize].material,
+        box_center: bounds.center.as_vec3().to_array(),
+        box_half_extent: bounds.half_extent.as_vec3().to_array(),
     }
 }
 

@@ -3,19 +3,21 @@
 //! A variant is data: defines and specialization constants. Pipelines that several methods share are made once.
 
 mod debug;
+mod requirements;
 
 pub use debug::DebugPipelines;
+pub use requirements::check_device;
 
+use crate::Result;
 use crate::assign::Assigner;
-use crate::config::Marking;
+use crate::config::{Culling, Marking};
 use crate::draw_list::SurfaceKind;
 use crate::geometry::{Candidates, SphereTest};
 use crate::layouts::Layouts;
 use crate::lights::Attenuation;
-use crate::methods::{MethodSpec, Space};
+use crate::methods::{MethodSpec, Sharing, Space};
 use crate::scene::Vertex;
 use crate::vk::{self as gpu, Context, GraphicsDesc, Pipeline, ShaderLibrary};
-use crate::{Error, Result};
 use ash::vk;
 use std::collections::BTreeMap;
 use std::mem::offset_of;
@@ -33,6 +35,10 @@ pub struct Variant {
     pub method: MethodSpec,
     /// Samples per pixel.
     pub samples: u32,
+    /// Where instances are culled.
+    pub culling: Culling,
+    /// Whether geometry passes draw all views at once.
+    pub multiview: bool,
     /// Marking from depth shades per sample, marking from geometry per fragment.
     pub marking: Marking,
     /// How the lists are built.
@@ -49,6 +55,18 @@ impl Variant {
     /// Whether fragments run once per sample, so that they lie where the depth buffer says.
     fn per_sample(&self) -> bool {
         self.samples > 1 && self.marking == Marking::Depth
+    }
+
+    /// Whether a graphics pipeline draws all views at once: the prepass, and what is shaded in any order through the one
+    /// clustering that all views share.
+    fn draws_all_views(&self, output: Output) -> bool {
+        let one_clustering = !matches!(self.method, MethodSpec::Clustered { sharing: Sharing::Indi, .. });
+        self.multiview
+            && match output {
+                Output::Depth => true,
+                Output::Shades(kind) => one_clustering && kind != SurfaceKind::Transparent,
+                Output::Marks(_) | Output::Counts(_) => false,
+            }
     }
 
     /// The defines of every shader of this variant.
@@ -179,6 +197,7 @@ pub struct AcceleratedPipelines {
 
 /// All pipelines of one variant.
 pub struct Pipelines {
+    cull: Option<Arc<Pipeline>>,
     /// Prepass of opaque geometry.
     pub depth_opaque: Arc<Pipeline>,
     /// Prepass of masked geometry.
@@ -192,6 +211,11 @@ pub struct Pipelines {
 }
 
 impl Pipelines {
+    /// Culls on the device; only its pass asks.
+    pub fn cull(&self) -> &Pipeline {
+        self.cull.as_ref().expect("stage cull runs where the device culls")
+    }
+
     /// The clustered methods' pipelines; only their passes ask.
     pub fn clustered(&self) -> &ClusteredPipelines {
         self.clustered.as_ref().expect("a pass of clustered methods runs in a clustered method")
@@ -208,6 +232,7 @@ pub struct PipelineStore {
     context: Arc<Context>,
     layouts: Arc<Layouts>,
     shaders: ShaderLibrary,
+    views: usize,
     made: BTreeMap<String, Arc<Pipeline>>,
 }
 
@@ -225,9 +250,9 @@ enum Output {
 }
 
 impl PipelineStore {
-    /// An empty store.
-    pub fn new(context: &Arc<Context>, layouts: &Arc<Layouts>, shaders: ShaderLibrary) -> Self {
-        Self { context: context.clone(), layouts: layouts.clone(), shaders, made: BTreeMap::new() }
+    /// An empty store, for pipelines that draw `views` views.
+    pub fn new(context: &Arc<Context>, layouts: &Arc<Layouts>, shaders: ShaderLibrary, views: usize) -> Self {
+        Self { context: context.clone(), layouts: layouts.clone(), shaders, views, made: BTreeMap::new() }
     }
 
     /// All pipelines of a variant.
@@ -240,7 +265,12 @@ impl PipelineStore {
             Assigner::Brute => None,
             Assigner::Hierarchy | Assigner::Scatter => Some(self.accelerated(variant)?),
         };
+        let cull = match variant.culling {
+            Culling::Cpu => None,
+            Culling::Gpu => Some(self.compute("geometry/cull.comp", &Defines(vec![]))?),
+        };
         Ok(Pipelines {
+            cull,
             depth_opaque: self.graphics(variant, None, Output::Depth)?,
             depth_masked: self.graphics(variant, Some("geometry/alpha_test.frag"), Output::Depth)?,
             shade: self.per_kind(variant, "shade/forward.frag", Output::Shades)?,
@@ -343,7 +373,9 @@ impl PipelineStore {
         fragment: Option<&str>,
         output: Output,
     ) -> Result<Arc<Pipeline>> {
-        let defines = graphics_defines(variant, fragment.is_some(), output);
+        let at_once = self.views > 1 && variant.draws_all_views(output);
+        let views = if at_once { self.views } else { 0 };
+        let defines = graphics_defines(variant, fragment.is_some(), output).with("VIEWS", views);
         let key = format!("{fragment:?} {output:?} {:?} {defines:?}", variant.attenuation);
         if let Some(made) = self.made.get(&key) {
             return Ok(made.clone());
@@ -381,7 +413,11 @@ impl PipelineStore {
 }
 
 fn graphics_defines(variant: &Variant, textured: bool, output: Output) -> Defines {
-    let defines = variant.defines().with("VARYINGS", varyings(textured, output));
+    let culling = match variant.culling {
+        Culling::Cpu => "CULLING_CPU",
+        Culling::Gpu => "CULLING_GPU",
+    };
+    let defines = variant.defines().with("CULLING", culling).with("VARYINGS", varyings(textured, output));
     match output {
         Output::Depth => defines,
         Output::Marks(_) => defines.with("COUNT_FRAGMENTS", 0),
@@ -429,22 +465,4 @@ fn vertex_attributes(varyings: u32) -> Vec<vk::VertexInputAttributeDescription> 
             offset: offset as u32,
         })
         .collect()
-}
-
-/// Refuses what the device cannot do, before anything is made.
-pub fn check_device(context: &Context, samples: u32, marking: Marking) -> Result<()> {
-    let limits = &context.limits;
-    if !limits.sample_counts.contains(&samples) {
-        return Err(Error::Device(format!(
-            "{} cannot render {samples} samples per pixel (it can: {:?}): change --msaa",
-            context.info.name, limits.sample_counts
-        )));
-    }
-    if samples > 1 && marking == Marking::Depth && !limits.sample_rate_shading {
-        return Err(Error::Device(format!(
-            "{} cannot shade per sample, which marking from depth needs with MSAA: use --marking geometry",
-            context.info.name
-        )));
-    }
-    Ok(())
 }

@@ -1,4 +1,8 @@
 // Marks (or counts, see visit_cluster) the cluster of every sample of the depth buffer (Gelderen section 5.2).
+//
+// Each sample reads its cluster's bit by itself. Leaving out neighbours of the same cluster did not win on lavapipe (mono,
+// 1280x720, times over this one's, in turn on two cores with other work): compared in shared memory 1.4 at ortho-1 and 0.7
+// to 1.0 at persp-64; four pixels a thread, the last cluster remembered, 1.2 to 1.3 at ortho-1 and 0.8 to 1.3 at persp-64.
 #version 460
 #include "lib/cluster_space.glsl"
 #include "lib/sample_positions.glsl"

@@ -1,7 +1,10 @@
 // Vertices of the scene, for every geometry pass.
 //
+// VIEWS: how many views are drawn at once, a layer of the target each: then every instance comes as often, view by view. 0
+// for one view, whose number is pushed.
 // VARYINGS: 0 position alone, 1 with texture coordinates and colour (alpha test), 2 with the tangent frame.
 #version 460
+#extension GL_ARB_shader_viewport_layer_array : require
 #include "generated/gpu_interface.glsl"
 
 layout(location = 0) in vec3 position;
@@ -18,20 +21,40 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) out vec3 out_normal;
 layout(location = 4) out vec4 out_tangent;
+#if VIEWS
+layout(location = 5) flat out uint out_view;
+#endif
 #endif
 
 // The same bits in every pass: shading tests for equal depth.
 invariant gl_Position;
 
+uint drawn_instance(uint place)
+{
+#if CULLING == CULLING_GPU
+    return drawn_instances[place];
+#else
+    return place;
+#endif
+}
+
 void main()
 {
-    mat4 world_from_object = instances[gl_InstanceIndex].world_from_object;
+#if VIEWS
+    uint view = gl_InstanceIndex % VIEWS;
+    uint instance = drawn_instance(gl_InstanceIndex / VIEWS);
+    gl_Layer = int(view);
+#else
+    uint view = push.view;
+    uint instance = drawn_instance(gl_InstanceIndex);
+#endif
+    mat4 world_from_object = instances[instance].world_from_object;
     vec4 world = world_from_object * vec4(position, 1.0);
-    gl_Position = views[push.view].clip_from_world * world;
+    gl_Position = views[view].clip_from_world * world;
 #if VARYINGS >= 1
     out_uv = vec4(uv0, uv1);
     out_color = color;
-    out_material = instances[gl_InstanceIndex].material;
+    out_material = instances[instance].material;
 #endif
 #if VARYINGS >= 2
     // The cofactor matrix carries normals through any affine map, mirroring included.
@@ -39,6 +62,9 @@ void main()
     mat3 cofactor = mat3(cross(linear[1], linear[2]), cross(linear[2], linear[0]), cross(linear[0], linear[1]));
     float mirrored = sign(determinant(linear));
     out_normal = mirrored * (cofactor * normal);
+#if VIEWS
+    out_view = view;
+#endif
     out_tangent = vec4(linear * tangent.xyz, mirrored * tangent.w);
 #endif
 }

@@ -19,6 +19,9 @@ layout(location = 1) in vec4 color;
 layout(location = 2) flat in uint material_index;
 layout(location = 3) in vec3 normal;
 layout(location = 4) in vec4 tangent;
+#if VIEWS
+layout(location = 5) flat in uint view_index;
+#endif
 
 layout(location = 0) out vec4 out_color;
 
@@ -26,6 +29,16 @@ layout(location = 0) out vec4 out_color;
 const float AMBIENT = 0.02;
 // Shown where a fragment's cluster is missing (Gelderen figure 5.1).
 const vec3 MISSING_CLUSTER = vec3(1.0, 0.0, 1.0);
+
+// The view that the fragment is of. Where it is pushed, all fragments read the same memory at once.
+uint view_of_fragment()
+{
+#if VIEWS
+    return view_index;
+#else
+    return push.view;
+#endif
+}
 
 vec3 shading_normal(MaterialData material, TextureCoordinates at)
 {
@@ -56,7 +69,7 @@ void main()
     TextureCoordinates at = texture_coordinates(uv);
     if (is_background())
         discard;
-    ViewData view = views[push.view];
+    ViewData view = views[view_of_fragment()];
     MaterialData material = materials[material_index];
     vec4 base = base_color(material, at, color);
     LightCursor cursor;

@@ -2,8 +2,8 @@
 
 use super::values::{self, de};
 use super::{
-    Assign, Config, DisplacedVolume, Exclude, ExrFrames, FrameRange, Lighting, Marking, SceneEntry, Scopes,
-    Test, scenes, schema,
+    Assign, Config, Culling, DisplacedVolume, Exclude, ExrFrames, FrameRange, Lighting, Marking, SceneEntry,
+    Scopes, Test, scenes, schema,
 };
 use crate::lights::Attenuation;
 use crate::methods::MethodSpec;
@@ -82,6 +82,15 @@ pub struct Layer {
     #[serde(default, deserialize_with = "de::msaa")]
     #[schemars(schema_with = "schema::msaa")]
     pub msaa: Option<u32>,
+
+    /// Where instances outside the views are left out; what is seen is the same.
+    #[arg(long, value_enum)]
+    pub culling: Option<Culling>,
+
+    /// Draw all views in one pass: the prepass, and opaque and masked shading where the views share a clustering. What
+    /// is seen is the same.
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
+    pub multiview: Option<bool>,
 
     /// Frames to render: A..B/STEP leaves B out; also A.., ..B, /STEP, or one number.
     #[arg(long, value_name = "A..B/STEP")]
@@ -184,6 +193,8 @@ impl Config {
         set(&mut self.methods, layer.methods);
         set(&mut self.resolution, layer.resolution);
         set(&mut self.msaa, layer.msaa);
+        set(&mut self.culling, layer.culling);
+        set(&mut self.multiview, layer.multiview);
         set(&mut self.frames, layer.frames);
         set(&mut self.runs, layer.runs);
         set(&mut self.exr, layer.exr);

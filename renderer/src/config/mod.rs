@@ -55,6 +55,16 @@ pub enum Marking {
     Geometry,
 }
 
+/// Where instances outside the views are left out; what is seen is the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Culling {
+    /// On the host, which records a draw for each run of instances seen.
+    Cpu,
+    /// On the device, which fills the draw commands that the host records.
+    Gpu,
+}
+
 /// Which frustum sizes the clusters of Displ (Gelderen section 4.3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -174,6 +184,10 @@ pub struct Config {
     pub resolution: [u32; 2],
     /// Samples per pixel, 1 or 4.
     pub msaa: u32,
+    /// Where instances are culled.
+    pub culling: Culling,
+    /// Prepass and shading draw all views at once.
+    pub multiview: bool,
     /// Frames to render.
     pub frames: FrameRange,
     /// Temporal runs.
@@ -225,6 +239,8 @@ impl Default for Config {
             scene_lights: false,
             resolution: [320, 180],
             msaa: 1,
+            culling: Culling::Gpu,
+            multiview: false,
             frames: FrameRange { first: 0, end: None, step: 40 },
             runs: 2,
             exr: ExrFrames::List(Vec::new()),

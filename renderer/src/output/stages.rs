@@ -135,6 +135,25 @@ mod tests {
     }
 
     #[test]
+    fn stages_of_all_views_at_once_count_as_those_of_each() {
+        let at_once = StageMinima::from_times(&[times(
+            0,
+            &[
+                ("frame", 20.0),
+                ("frame/cluster[0]", 6.0),
+                ("frame/cluster[0]/depth", 1.0),
+                ("frame/cluster[0]/mark[0]", 2.0),
+                ("frame/cluster[1]", 3.0),
+                ("frame/cluster[1]/mark[1]", 0.5),
+                ("frame/shade", 5.0),
+            ],
+        )]);
+        let of_frame = at_once.frame(7);
+        assert_eq!(of_frame.visibility, Some(1.0 + 2.0 + 0.5));
+        assert_eq!((of_frame.cluster, of_frame.shade), (Some(6.0 + 3.0), Some(5.0)));
+    }
+
+    #[test]
     fn what_was_not_timed_is_not_zero() {
         let frame_alone = StageMinima::from_times(&[times(0, &[("frame", 2.0)])]);
         assert_eq!(frame_alone.frame(7), GpuTimes { frame: Some(2.0), ..GpuTimes::default() });

@@ -11,11 +11,13 @@ pub enum Use {
     ComputeWrite,
     /// Image sampled by a compute shader.
     ComputeSample,
+    /// Storage buffer read by a vertex shader.
+    VertexRead,
     /// Storage buffer read by a fragment shader.
     FragmentRead,
     /// Storage buffer written (and perhaps read) by a fragment shader.
     FragmentWrite,
-    /// Dispatch sizes read by the device.
+    /// Dispatch sizes or draw commands read by the device.
     Indirect,
     /// Source of a copy or resolve.
     TransferRead,
@@ -36,6 +38,7 @@ impl Use {
         use vk::PipelineStageFlags2 as S;
         match self {
             Self::ComputeRead | Self::ComputeWrite | Self::ComputeSample => S::COMPUTE_SHADER,
+            Self::VertexRead => S::VERTEX_SHADER,
             Self::FragmentRead | Self::FragmentWrite => S::FRAGMENT_SHADER,
             Self::Indirect => S::DRAW_INDIRECT,
             Self::TransferRead | Self::TransferWrite => S::ALL_TRANSFER,
@@ -48,7 +51,7 @@ impl Use {
     fn access(self) -> vk::AccessFlags2 {
         use vk::AccessFlags2 as A;
         match self {
-            Self::ComputeRead | Self::FragmentRead => A::SHADER_STORAGE_READ,
+            Self::ComputeRead | Self::VertexRead | Self::FragmentRead => A::SHADER_STORAGE_READ,
             Self::ComputeWrite | Self::FragmentWrite => A::SHADER_STORAGE_READ | A::SHADER_STORAGE_WRITE,
             Self::ComputeSample => A::SHADER_SAMPLED_READ,
             Self::Indirect => A::INDIRECT_COMMAND_READ,
@@ -100,7 +103,7 @@ impl Access {
         Self { resource: Resource::Buffer(buffer), usage }
     }
 
-    /// A whole image with one mip level.
+    /// A whole image with one mip level, all its layers.
     pub fn image(image: vk::Image, aspect: vk::ImageAspectFlags, usage: Use) -> Self {
         Self { resource: Resource::Image(image, aspect), usage }
     }
@@ -222,7 +225,7 @@ impl Tracker {
                         vk::ImageSubresourceRange::default()
                             .aspect_mask(aspect)
                             .level_count(1)
-                            .layer_count(1),
+                            .layer_count(vk::REMAINING_ARRAY_LAYERS),
                     ),
             ),
         }

@@ -1,7 +1,8 @@
 //! Stage `clay` of stills: opaque and masked surfaces without their shading, so that every camera sees something.
 
 use super::draws;
-use crate::frame::Frame;
+use crate::draw_list::SurfaceKind;
+use crate::frame::{Eyes, Frame};
 use crate::pass::{Access, Recorder, Use};
 use crate::pipelines::DebugPipelines;
 use ash::vk;
@@ -10,9 +11,8 @@ use ash::vk;
 pub fn record(r: &mut Recorder, frame: &Frame, pipelines: &DebugPipelines, view: usize) {
     r.scope(("clay", view), |r| {
         begin_over_prepass(r, frame, view);
-        let list = &frame.draw_lists[view];
-        draws::draw(r, frame, view, &pipelines.clay[0], &list.opaque, true);
-        draws::draw(r, frame, view, &pipelines.clay[1], &list.masked, true);
+        draws::draw(r, frame, Eyes::One(view), &pipelines.clay[0], (SurfaceKind::Opaque, true));
+        draws::draw(r, frame, Eyes::One(view), &pipelines.clay[1], (SurfaceKind::Masked, true));
         draws::end_rendering(r);
     });
 }
@@ -21,8 +21,8 @@ pub fn record(r: &mut Recorder, frame: &Frame, pipelines: &DebugPipelines, view:
 pub fn begin_over_prepass(r: &mut Recorder, frame: &Frame, view: usize) {
     let target = &frame.targets[view];
     r.access(&[
-        Access::image(target.color.handle, vk::ImageAspectFlags::COLOR, Use::Color),
-        Access::image(target.depth.handle, vk::ImageAspectFlags::DEPTH, Use::DepthTest),
+        Access::image(target.color.image.handle, vk::ImageAspectFlags::COLOR, Use::Color),
+        Access::image(target.depth.image.handle, vk::ImageAspectFlags::DEPTH, Use::DepthTest),
     ]);
     let color = vk::RenderingAttachmentInfo::default()
         .image_view(target.color.view)
@@ -30,5 +30,6 @@ pub fn begin_over_prepass(r: &mut Recorder, frame: &Frame, view: usize) {
         .load_op(vk::AttachmentLoadOp::CLEAR)
         .store_op(vk::AttachmentStoreOp::STORE)
         .clear_value(vk::ClearValue { color: vk::ClearColorValue { float32: [0.0; 4] } });
-    draws::begin_rendering(r, frame, Some(&color), &draws::depth_attachment(frame, view, false));
+    let eyes = Eyes::One(view);
+    draws::begin_rendering(r, frame, eyes, Some(&color), &draws::depth_attachment(frame, eyes, false));
 }

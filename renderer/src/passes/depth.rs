@@ -1,19 +1,19 @@
-//! Stage `depth[v]`: prepass of opaque and masked geometry.
+//! Stage `depth[v]`, with multiview `depth` for all views: prepass of opaque and masked geometry.
 
 use super::draws;
-use crate::frame::Frame;
+use crate::draw_list::SurfaceKind;
+use crate::frame::{Eyes, Frame};
 use crate::pass::{Access, Recorder, Use};
 use ash::vk;
 
-/// Lays down one view's depth.
-pub fn record(r: &mut Recorder, frame: &Frame, view: usize) {
-    r.scope(("depth", view), |r| {
-        let target = &frame.targets[view];
-        r.access(&[Access::image(target.depth.handle, vk::ImageAspectFlags::DEPTH, Use::Depth)]);
-        draws::begin_rendering(r, frame, None, &draws::depth_attachment(frame, view, true));
-        let list = &frame.draw_lists[view];
-        draws::draw(r, frame, view, &frame.pipelines.depth_opaque, &list.opaque, false);
-        draws::draw(r, frame, view, &frame.pipelines.depth_masked, &list.masked, true);
+/// Lays down the depth of some views.
+pub fn record(r: &mut Recorder, frame: &Frame, eyes: Eyes) {
+    r.scope(eyes.stage("depth"), |r| {
+        let target = &frame.targets[eyes.first()];
+        r.access(&[Access::image(target.depth.image.handle, vk::ImageAspectFlags::DEPTH, Use::Depth)]);
+        draws::begin_rendering(r, frame, eyes, None, &draws::depth_attachment(frame, eyes, true));
+        draws::draw(r, frame, eyes, &frame.pipelines.depth_opaque, (SurfaceKind::Opaque, false));
+        draws::draw(r, frame, eyes, &frame.pipelines.depth_masked, (SurfaceKind::Masked, true));
         draws::end_rendering(r);
     });
 }

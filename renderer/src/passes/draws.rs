@@ -1,19 +1,26 @@
 //! Drawing the scene: what every geometry pass shares.
 
-use crate::draw_list::DrawRun;
-use crate::frame::Frame;
-use crate::gpu_interface::{SET_BUFFERS, SET_MATERIAL};
-use crate::pass::Recorder;
-use crate::vk::Pipeline;
+use crate::draw_list::{DrawRun, SurfaceKind};
+use crate::frame::{Draws, Eyes, Frame, Layer};
+use crate::gpu_interface::{DrawCommand, SET_BUFFERS, SET_MATERIAL};
+use crate::pass::{Access, Recorder, Use};
+use crate::vk::{Buffer, Pipeline};
 use ash::vk;
 
-/// Opens dynamic rendering over a whole view and sets the viewport (flipped, so that +Y stays up).
+/// Opens dynamic rendering over whole views and sets the viewport (flipped, so that +Y stays up).
 pub fn begin_rendering(
-    r: &Recorder,
+    r: &mut Recorder,
     frame: &Frame,
+    eyes: Eyes,
     color: Option<&vk::RenderingAttachmentInfo>,
     depth: &vk::RenderingAttachmentInfo,
 ) {
+    if let Draws::Indirect { buffers, .. } = &frame.draws {
+        r.access(&[
+            Access::buffer(buffers.commands.handle, Use::Indirect),
+            Access::buffer(buffers.drawn_instances.handle, Use::VertexRead),
+        ]);
+    }
     let [width, height] = frame.resolution;
     let area = vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } };
     let viewport = vk::Viewport {
@@ -24,7 +31,10 @@ pub fn begin_rendering(
         min_depth: 0.0,
         max_depth: 1.0,
     };
-    let mut info = vk::RenderingInfo::default().render_area(area).layer_count(1).depth_attachment(depth);
+    let mut info = vk::RenderingInfo::default()
+        .render_area(area)
+        .layer_count(frame.view_count(eyes))
+        .depth_attachment(depth);
     if let Some(color) = color {
         info = info.color_attachments(std::slice::from_ref(color));
     }
@@ -43,53 +53,105 @@ pub fn end_rendering(r: &Recorder) {
     unsafe { r.context.device.cmd_end_rendering(r.commands) };
 }
 
-/// The depth attachment of a view: cleared to far, or kept for testing alone.
-pub fn depth_attachment(frame: &Frame, view: usize, clear: bool) -> vk::RenderingAttachmentInfo<'static> {
+/// What is attached of a view's image: its layer, or all layers for all views.
+pub fn attached(layer: &Layer, eyes: Eyes) -> vk::ImageView {
+    match eyes {
+        Eyes::One(_) => layer.view,
+        Eyes::All => layer.image.view,
+    }
+}
+
+/// The depth attachment of some views: cleared to far, or kept for testing alone.
+pub fn depth_attachment(frame: &Frame, eyes: Eyes, clear: bool) -> vk::RenderingAttachmentInfo<'static> {
     let (layout, load) = if clear {
         (vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL, vk::AttachmentLoadOp::CLEAR)
     } else {
         (vk::ImageLayout::DEPTH_READ_ONLY_OPTIMAL, vk::AttachmentLoadOp::LOAD)
     };
     vk::RenderingAttachmentInfo::default()
-        .image_view(frame.targets[view].depth.view)
+        .image_view(attached(&frame.targets[eyes.first()].depth, eyes))
         .image_layout(layout)
         .load_op(load)
         .store_op(if clear { vk::AttachmentStoreOp::STORE } else { vk::AttachmentStoreOp::NONE })
         .clear_value(vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth: 0.0, stencil: 0 } })
 }
 
-/// Draws `runs` of one view with one pipeline; material textures are bound where the pipeline reads them.
-pub fn draw(r: &Recorder, frame: &Frame, view: usize, pipeline: &Pipeline, runs: &[DrawRun], textured: bool) {
-    if runs.is_empty() {
+/// Draws one kind of surface with one pipeline; material textures are bound where the pipeline reads them.
+pub fn draw(
+    r: &Recorder,
+    frame: &Frame,
+    eyes: Eyes,
+    pipeline: &Pipeline,
+    (kind, textured): (SurfaceKind, bool),
+) {
+    if !frame.draws_any(eyes, kind) {
         return;
     }
-    let device = &r.context.device;
-    frame.bind(r, vk::PipelineBindPoint::GRAPHICS, pipeline, view);
-    let (mut material, mut facing) = (None, None);
-    for run in runs {
-        let batch = &frame.scene.batches[run.batch as usize];
-        if textured && material != Some(batch.material) {
-            material = Some(batch.material);
-            frame.bind_set(
-                r,
-                vk::PipelineBindPoint::GRAPHICS,
-                SET_MATERIAL,
-                frame.scene.material_sets[batch.material as usize],
-            );
+    let (list, views) = (frame.list_of(eyes), frame.view_count(eyes));
+    frame.bind(r, vk::PipelineBindPoint::GRAPHICS, pipeline, eyes.first());
+    let mut state = SurfaceState { textured, material: None, facing: None };
+    match &frame.draws {
+        Draws::Listed(lists) => {
+            for run in lists[list].runs(kind) {
+                state.set(r, frame, run.batch);
+                draw_run(r, frame, run, views);
+            }
         }
-        if facing != Some((batch.mirrored, batch.double_sided)) {
-            facing = Some((batch.mirrored, batch.double_sided));
-            set_facing(r, batch.mirrored, batch.double_sided);
+        Draws::Indirect { slots, orders, buffers } => {
+            let part = list * slots.slots.len();
+            for group in orders[list].groups(slots, kind) {
+                state.set(r, frame, group.batch);
+                draw_commands(r, &buffers.commands, part as u64 + u64::from(group.first), group.count);
+            }
         }
+    }
+}
+
+/// Draws every instance of a run once for each view.
+fn draw_run(r: &Recorder, frame: &Frame, run: &DrawRun, views: u32) {
+    let batch = &frame.scene.batches[run.batch as usize];
+    unsafe {
+        r.context.device.cmd_draw_indexed(
+            r.commands,
+            batch.index_count,
+            views * run.instance_count,
+            batch.first_index,
+            batch.vertex_offset,
+            views * run.first_instance,
+        );
+    }
+}
+
+/// Draws consecutive commands, in as many calls as the device's limit asks for.
+fn draw_commands(r: &Recorder, commands: &Buffer, first: u64, count: u32) {
+    const STRIDE: u32 = size_of::<DrawCommand>() as u32;
+    let most = r.context.limits.max_draw_indirect_count;
+    for done in (0..count).step_by(most as usize) {
+        let offset = (first + u64::from(done)) * u64::from(STRIDE);
+        let now = most.min(count - done);
         unsafe {
-            device.cmd_draw_indexed(
-                r.commands,
-                batch.index_count,
-                run.instance_count,
-                batch.first_index,
-                batch.vertex_offset,
-                run.first_instance,
-            );
+            r.context.device.cmd_draw_indexed_indirect(r.commands, commands.handle, offset, now, STRIDE);
+        }
+    }
+}
+
+/// The textures bound and the facing set, so that neither is set twice.
+struct SurfaceState {
+    textured: bool,
+    material: Option<u32>,
+    facing: Option<(bool, bool)>,
+}
+
+impl SurfaceState {
+    fn set(&mut self, r: &Recorder, frame: &Frame, batch: u32) {
+        let batch = &frame.scene.batches[batch as usize];
+        if self.textured && self.material.replace(batch.material) != Some(batch.material) {
+            let textures = frame.scene.material_sets[batch.material as usize];
+            frame.bind_set(r, vk::PipelineBindPoint::GRAPHICS, SET_MATERIAL, textures);
+        }
+        let facing = (batch.mirrored, batch.double_sided);
+        if self.facing.replace(facing) != Some(facing) {
+            set_facing(r, batch.mirrored, batch.double_sided);
         }
     }
 }
@@ -104,6 +166,15 @@ fn set_facing(r: &Recorder, mirrored: bool, double_sided: bool) {
 }
 
 impl Frame<'_> {
+    /// Whether a pass draws surfaces of a kind; where the device culls, whether there are any.
+    pub fn draws_any(&self, eyes: Eyes, kind: SurfaceKind) -> bool {
+        let list = self.list_of(eyes);
+        match &self.draws {
+            Draws::Listed(lists) => !lists[list].runs(kind).is_empty(),
+            Draws::Indirect { slots, orders, .. } => !orders[list].groups(slots, kind).is_empty(),
+        }
+    }
+
     /// Binds a pipeline with the buffers and the number of `view`.
     pub fn bind(&self, r: &Recorder, point: vk::PipelineBindPoint, pipeline: &Pipeline, view: usize) {
         let clustering = self.clustering_of_view(view);

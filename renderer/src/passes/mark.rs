@@ -4,7 +4,7 @@
 use super::draws;
 use crate::config::Marking;
 use crate::draw_list::SurfaceKind;
-use crate::frame::Frame;
+use crate::frame::{Eyes, Frame};
 use crate::gpu_interface::SET_DEPTH;
 use crate::pass::{Access, Recorder, Use};
 use crate::pipelines::MarkPipelines;
@@ -52,7 +52,7 @@ fn visit(r: &mut Recorder, frame: &Frame, view: usize, pipelines: &MarkPipelines
         }
         Marking::Geometry => &SurfaceKind::ALL[..],
     };
-    if kinds.iter().any(|&kind| !frame.draw_lists[view].runs(kind).is_empty()) {
+    if kinds.iter().any(|&kind| frame.draws_any(Eyes::One(view), kind)) {
         from_geometry(r, frame, (view, kinds), pipelines, written);
     }
 }
@@ -60,7 +60,7 @@ fn visit(r: &mut Recorder, frame: &Frame, view: usize, pipelines: &MarkPipelines
 fn from_depth(r: &mut Recorder, frame: &Frame, view: usize, pipelines: &MarkPipelines, written: &Buffer) {
     let target = &frame.targets[view];
     r.access(&[
-        Access::image(target.depth.handle, vk::ImageAspectFlags::DEPTH, Use::ComputeSample),
+        Access::image(target.depth.image.handle, vk::ImageAspectFlags::DEPTH, Use::ComputeSample),
         Access::buffer(written.handle, Use::ComputeWrite),
     ]);
     frame.bind(r, vk::PipelineBindPoint::COMPUTE, &pipelines.depth, view);
@@ -77,13 +77,13 @@ fn from_geometry(
     written: &Buffer,
 ) {
     r.access(&[
-        Access::image(frame.targets[view].depth.handle, vk::ImageAspectFlags::DEPTH, Use::DepthTest),
+        Access::image(frame.targets[view].depth.image.handle, vk::ImageAspectFlags::DEPTH, Use::DepthTest),
         Access::buffer(written.handle, Use::FragmentWrite),
     ]);
-    draws::begin_rendering(r, frame, None, &draws::depth_attachment(frame, view, false));
+    let eyes = Eyes::One(view);
+    draws::begin_rendering(r, frame, eyes, None, &draws::depth_attachment(frame, eyes, false));
     for &kind in kinds {
-        let runs = frame.draw_lists[view].runs(kind);
-        draws::draw(r, frame, view, &pipelines.geometry[kind as usize], runs, false);
+        draws::draw(r, frame, eyes, &pipelines.geometry[kind as usize], (kind, false));
     }
     draws::end_rendering(r);
 }

@@ -3,6 +3,7 @@
 
 pub mod assign;
 pub mod clay;
+pub mod cull;
 pub mod cull_lights;
 pub mod depth;
 pub mod draws;

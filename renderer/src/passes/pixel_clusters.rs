@@ -18,7 +18,11 @@ pub fn record(
     r.scope(("pixel_clusters", clustering), |r| {
         let b = &frame.clusterings[clustering].buffers;
         r.access(&[
-            Access::image(frame.targets[view].depth.handle, vk::ImageAspectFlags::DEPTH, Use::ComputeSample),
+            Access::image(
+                frame.targets[view].depth.image.handle,
+                vk::ImageAspectFlags::DEPTH,
+                Use::ComputeSample,
+            ),
             Access::buffer(b.pixels.handle, Use::ComputeWrite),
             Access::buffer(b.cluster_bits.handle, Use::ComputeRead),
             Access::buffer(b.word_ranks.handle, Use::ComputeRead),

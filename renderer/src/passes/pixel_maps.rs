@@ -27,7 +27,7 @@ fn compute(r: &mut Recorder, frame: &Frame, view: usize) {
     let target = &frame.targets[view];
     let b = &frame.clusterings[frame.clustering_of_view(view)].buffers;
     r.access(&[
-        Access::image(target.depth.handle, vk::ImageAspectFlags::DEPTH, Use::ComputeSample),
+        Access::image(target.depth.image.handle, vk::ImageAspectFlags::DEPTH, Use::ComputeSample),
         Access::buffer(b.pixels.handle, Use::ComputeWrite),
         Access::buffer(b.cluster_bits.handle, Use::ComputeRead),
         Access::buffer(b.word_ranks.handle, Use::ComputeRead),
@@ -43,23 +43,19 @@ fn compute(r: &mut Recorder, frame: &Frame, view: usize) {
 /// Copies a view's colour, one sample a pixel, to the start of `target`.
 pub fn copy_color(r: &mut Recorder, frame: &Frame, view: usize, target: &Buffer) {
     let targets = &frame.targets[view];
-    let image = targets.resolved.as_ref().unwrap_or(&targets.color);
+    let source = targets.resolved.as_ref().unwrap_or(&targets.color);
     r.access(&[
-        Access::image(image.handle, vk::ImageAspectFlags::COLOR, Use::TransferRead),
+        Access::image(source.image.handle, vk::ImageAspectFlags::COLOR, Use::TransferRead),
         Access::buffer(target.handle, Use::TransferWrite),
     ]);
     let [width, height] = frame.resolution;
-    let layers =
-        vk::ImageSubresourceLayers::default().aspect_mask(vk::ImageAspectFlags::COLOR).layer_count(1);
-    let region = vk::BufferImageCopy::default().image_subresource(layers).image_extent(vk::Extent3D {
-        width,
-        height,
-        depth: 1,
-    });
+    let region = vk::BufferImageCopy::default()
+        .image_subresource(source.color())
+        .image_extent(vk::Extent3D { width, height, depth: 1 });
     unsafe {
         r.context.device.cmd_copy_image_to_buffer(
             r.commands,
-            image.handle,
+            source.image.handle,
             vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
             target.handle,
             &[region],

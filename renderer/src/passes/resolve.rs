@@ -21,19 +21,18 @@ pub fn resolve(r: &mut Recorder, target: &ViewTargets, [width, height]: [u32; 2]
     let Some(resolved) = &target.resolved else { return };
     let aspect = vk::ImageAspectFlags::COLOR;
     r.access(&[
-        Access::image(target.color.handle, aspect, Use::TransferRead),
-        Access::image(resolved.handle, aspect, Use::TransferWrite),
+        Access::image(target.color.image.handle, aspect, Use::TransferRead),
+        Access::image(resolved.image.handle, aspect, Use::TransferWrite),
     ]);
-    let layers = vk::ImageSubresourceLayers::default().aspect_mask(aspect).layer_count(1);
     let region = vk::ImageResolve2::default()
-        .src_subresource(layers)
-        .dst_subresource(layers)
+        .src_subresource(target.color.color())
+        .dst_subresource(resolved.color())
         .extent(vk::Extent3D { width, height, depth: 1 });
     let regions = [region];
     let info = vk::ResolveImageInfo2::default()
-        .src_image(target.color.handle)
+        .src_image(target.color.image.handle)
         .src_image_layout(vk::ImageLayout::TRANSFER_SRC_OPTIMAL)
-        .dst_image(resolved.handle)
+        .dst_image(resolved.image.handle)
         .dst_image_layout(vk::ImageLayout::TRANSFER_DST_OPTIMAL)
         .regions(&regions);
     unsafe { r.context.device.cmd_resolve_image2(r.commands, &info) };

@@ -1,30 +1,41 @@
-//! Stages `shade[v] > opaque, masked, transparent`: forward shading through the method's lookup.
+//! Stages `shade[v] > opaque, masked, transparent`: forward shading through the method's lookup. With multiview `shade`
+//! draws opaque and masked surfaces of all views at once, where they look lights up in one clustering; transparent ones are
+//! blended view by view, each in its own order.
 
 use super::draws;
 use crate::draw_list::SurfaceKind;
-use crate::frame::Frame;
+use crate::frame::{Eyes, Frame};
 use crate::pass::{Access, Recorder, Use};
 use ash::vk;
 
 /// What is seen where nothing was drawn: a dim night sky, linear.
 pub const BACKGROUND: [f32; 4] = [0.004, 0.006, 0.012, 1.0];
 
-/// Shades one view.
-pub fn record(r: &mut Recorder, frame: &Frame, view: usize) {
-    r.scope(("shade", view), |r| {
-        for (kind, stage) in SurfaceKind::ALL.into_iter().zip(["opaque", "masked", "transparent"]) {
-            r.scope(stage, |r| surfaces(r, frame, view, kind));
-        }
+/// Shades some views.
+pub fn record(r: &mut Recorder, frame: &Frame, eyes: Eyes) {
+    r.scope(eyes.stage("shade"), |r| {
+        r.scope("opaque", |r| surfaces(r, frame, eyes, SurfaceKind::Opaque));
+        r.scope("masked", |r| surfaces(r, frame, eyes, SurfaceKind::Masked));
+        r.scope("transparent", |r| {
+            let views = match eyes {
+                Eyes::One(view) => view..view + 1,
+                Eyes::All => 0..frame.targets.len(),
+            };
+            for view in views {
+                surfaces(r, frame, Eyes::One(view), SurfaceKind::Transparent);
+            }
+        });
     });
 }
 
-fn surfaces(r: &mut Recorder, frame: &Frame, view: usize, kind: SurfaceKind) {
+fn surfaces(r: &mut Recorder, frame: &Frame, eyes: Eyes, kind: SurfaceKind) {
+    let view = eyes.first();
     let target = &frame.targets[view];
     let buffers = &frame.clusterings[frame.clustering_of_view(view)].buffers;
     let read = |buffer: &crate::vk::Buffer| Access::buffer(buffer.handle, Use::FragmentRead);
     r.access(&[
-        Access::image(target.color.handle, vk::ImageAspectFlags::COLOR, Use::Color),
-        Access::image(target.depth.handle, vk::ImageAspectFlags::DEPTH, Use::DepthTest),
+        Access::image(target.color.image.handle, vk::ImageAspectFlags::COLOR, Use::Color),
+        Access::image(target.depth.image.handle, vk::ImageAspectFlags::DEPTH, Use::DepthTest),
         read(frame.lights),
         read(&buffers.cluster_bits),
         read(&buffers.word_ranks),
@@ -35,13 +46,13 @@ fn surfaces(r: &mut Recorder, frame: &Frame, view: usize, kind: SurfaceKind) {
     ]);
     let first = kind == SurfaceKind::Opaque;
     let color = vk::RenderingAttachmentInfo::default()
-        .image_view(target.color.view)
+        .image_view(draws::attached(&target.color, eyes))
         .image_layout(vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL)
         .load_op(if first { vk::AttachmentLoadOp::CLEAR } else { vk::AttachmentLoadOp::LOAD })
         .store_op(vk::AttachmentStoreOp::STORE)
         .clear_value(vk::ClearValue { color: vk::ClearColorValue { float32: BACKGROUND } });
-    draws::begin_rendering(r, frame, Some(&color), &draws::depth_attachment(frame, view, false));
+    draws::begin_rendering(r, frame, eyes, Some(&color), &draws::depth_attachment(frame, eyes, false));
     let pipeline = &frame.pipelines.shade[kind as usize];
-    draws::draw(r, frame, view, pipeline, frame.draw_lists[view].runs(kind), true);
+    draws::draw(r, frame, eyes, pipeline, (kind, true));
     draws::end_rendering(r);
 }

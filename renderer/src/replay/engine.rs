@@ -8,10 +8,10 @@ use crate::assign::Assigner;
 use crate::clustering::{
     Clustering, ClusteringSizes, SharedBuffers, device_buffer, grid_data, gridless_data, view_data,
 };
-use crate::config::{Config, Marking, Scopes};
-use crate::frame::{self, Frame, SLOTS};
+use crate::config::{Config, Culling, Marking, Scopes};
+use crate::frame::{self, Draws, Frame, SLOTS};
 use crate::geometry::SphereTest;
-use crate::gpu_interface::{ClusteringState, LightData};
+use crate::gpu_interface::{ClusteringState, DrawCounts, LightData};
 use crate::lights::PointLight;
 use crate::measure::{Capacities, GrowthEvent};
 use crate::methods::MethodSpec;
@@ -26,6 +26,8 @@ use std::sync::Arc;
 pub struct Engine {
     context: Arc<Context>,
     method: MethodSpec,
+    culling: Culling,
+    multiview: bool,
     marking: Marking,
     assigner: Assigner,
     resolution: [u32; 2],
@@ -64,6 +66,8 @@ pub fn variant(config: &Config, method: MethodSpec, mode: &Mode) -> Variant {
     Variant {
         method,
         samples: config.msaa,
+        culling: config.culling,
+        multiview: config.multiview,
         marking: config.marking,
         assigner: assigner(method, mode),
         test: mode.test,
@@ -114,6 +118,8 @@ impl Engine {
         let mut engine = Self {
             context: session.context.clone(),
             method,
+            culling: config.culling,
+            multiview: config.multiview && session.targets.len() > 1,
             marking: config.marking,
             assigner: assigner(method, &mode),
             resolution: config.resolution,
@@ -166,6 +172,9 @@ impl Engine {
             lights: &self.lights,
             materials: &session.scene.materials,
             instances: &session.scene.instances,
+            draw_slots: &session.scene.draw_slots,
+            draw_order: [&session.slots[0].draw_order, &session.slots[1].draw_order],
+            draws: &session.draws,
         };
         for views in views_of_clusterings(&self.method, session.targets.len()) {
             let clustering =
@@ -214,10 +223,18 @@ impl Engine {
             layouts: &session.layouts,
             pipelines: &self.pipelines,
             scene: &session.scene,
-            draw_lists: &this.draw_lists,
+            draws: match self.culling {
+                Culling::Cpu => Draws::Listed(&this.draw_lists),
+                Culling::Gpu => Draws::Indirect {
+                    slots: &session.draw_slots,
+                    orders: &this.slot_orders,
+                    buffers: &session.draws,
+                },
+            },
             targets: &session.targets,
             clusterings: &self.clusterings,
             clustered: self.method != MethodSpec::AllLights,
+            multiview: self.multiview,
             marking: self.marking,
             assigner: self.assigner,
             shaded: self.shaded,
@@ -254,12 +271,27 @@ impl Engine {
             clustering.word_count = data.word_count;
             clustering.grids[slot].write(0, &[data]);
             for v in clustering.views.clone() {
-                let data = view_data(&plan.views[v], grid, self.resolution);
+                let data = view_data(&plan.views[v], grid, self.resolution, session.reach);
                 this.views.write((v * size_of_val(&data)) as u64, &[data]);
             }
         }
-        for (view, list) in plan.views.iter().zip(&mut this.draw_lists) {
-            list.update(&session.batches, view);
+        match self.culling {
+            Culling::Cpu => {
+                for (view, list) in plan.views.chunks(1).zip(&mut this.draw_lists) {
+                    list.update(&session.batches, view);
+                }
+                if self.multiview {
+                    this.draw_lists[plan.views.len()].update(&session.batches, &plan.views);
+                }
+            }
+            Culling::Gpu => {
+                let mut offset = size_of::<DrawCounts>() as u64;
+                for (view, order) in plan.views.iter().zip(&mut this.slot_orders) {
+                    order.update(&session.draw_slots, view);
+                    this.draw_order.write(offset, &order.slots);
+                    offset += size_of_val(order.slots.as_slice()) as u64;
+                }
+            }
         }
         self.staged.clear();
         self.staged.extend(lights.iter().map(light_data));

@@ -1,9 +1,11 @@
 //! What all runs of a replay share: device, scene, render targets, frames in flight.
 
+use crate::clustering::device_buffer;
 use crate::config::Config;
 use crate::draw_list::{Batches, DrawList};
-use crate::frame::{SLOTS, ViewTargets};
-use crate::gpu_interface::ViewData;
+use crate::draw_slots::{DrawSlots, SlotOrder};
+use crate::frame::{DrawBuffers, Layer, SLOTS, ViewTargets};
+use crate::gpu_interface::{DrawCommand, DrawCounts, ViewData};
 use crate::gpu_scene::GpuScene;
 use crate::layouts::{DescriptorSets, Layouts};
 use crate::pass::{FrameTracker, Timestamps};
@@ -29,12 +31,16 @@ pub struct Slot {
     pub views: Buffer,
     /// Each clustering's state, mapped.
     pub states: Buffer,
-    /// What each view draws.
+    /// What each view draws, and all at once, where the host culls.
     pub draw_lists: Vec<DrawList>,
+    /// In which order each view draws, and all at once, where the device culls.
+    pub slot_orders: Vec<SlotOrder>,
+    /// [`DrawCounts`] and the transparent slots of all views in their order, mapped.
+    pub draw_order: Buffer,
 }
 
 impl Slot {
-    fn new(context: &Arc<Context>, views: usize) -> Result<Self> {
+    fn new(context: &Arc<Context>, views: usize, counts: DrawCounts) -> Result<Self> {
         let failed = |e: vk::Result| Error::Device(format!("cannot make a frame in flight: {e}"));
         let device = &context.device;
         let info = vk::CommandPoolCreateInfo::default()
@@ -68,7 +74,9 @@ impl Slot {
                 vk::BufferUsageFlags::TRANSFER_DST,
                 Memory::Readback,
             )?,
-            draw_lists: vec![DrawList::default(); views],
+            draw_lists: vec![DrawList::default(); views + 1],
+            slot_orders: vec![SlotOrder::default(); views + 1],
+            draw_order: draw_order(context, views, counts)?,
         })
     }
 
@@ -126,6 +134,12 @@ pub struct Session {
     pub scene: GpuScene,
     /// Its instances in drawing order.
     pub batches: Batches,
+    /// No instance reaches farther from the world's origin, metres.
+    pub reach: f64,
+    /// What is drawn of them where the device culls.
+    pub draw_slots: DrawSlots,
+    /// What stage `cull` fills.
+    pub draws: DrawBuffers,
     /// Pipelines made so far.
     pub store: PipelineStore,
     /// The one pipeline layout.
@@ -141,12 +155,13 @@ impl Session {
     pub fn new(config: &Config, scene: &Scene, views: usize) -> Result<Self> {
         let options = DeviceOptions { device: config.device.clone(), validate: config.validate };
         let context = Context::new(&options)?;
-        pipelines::check_device(&context, config.msaa, config.marking)?;
+        pipelines::check_device(&context, config)?;
         check_resolution(&context, config.resolution)?;
         let layouts = Arc::new(Layouts::new(&context)?);
         let shaders = shader_library(config)?;
         let batches = Batches::new(scene);
-        let gpu_scene = GpuScene::new(&context, &layouts, scene, &batches)?;
+        let draw_slots = DrawSlots::new(&batches);
+        let gpu_scene = GpuScene::new(&context, &layouts, scene, (&batches, &draw_slots))?;
         let depth_sets = DescriptorSets::new(
             &context,
             "depth",
@@ -154,24 +169,44 @@ impl Session {
             (vk::DescriptorType::SAMPLED_IMAGE, 1),
             views,
         )?;
-        let targets = depth_sets
-            .sets
-            .iter()
-            .enumerate()
-            .map(|(view, &set)| targets(&context, config, view, set))
-            .collect::<Result<_>>()?;
+        let targets = targets(&context, config, &depth_sets.sets)?;
         Ok(Self {
-            slots: [Slot::new(&context, views)?, Slot::new(&context, views)?],
+            slots: [
+                Slot::new(&context, views, draw_slots.counts)?,
+                Slot::new(&context, views, draw_slots.counts)?,
+            ],
             targets,
             _depth_sets: depth_sets,
             scene: gpu_scene,
+            reach: batches.reach(),
             batches,
-            store: PipelineStore::new(&context, &layouts, shaders),
+            draws: draw_buffers(&context, views, draw_slots.counts)?,
+            draw_slots,
+            store: PipelineStore::new(&context, &layouts, shaders, views),
             layouts,
             tracker: FrameTracker::default(),
             context,
         })
     }
+}
+
+/// Counts, and room for the order of every view's transparent slots.
+fn draw_order(context: &Arc<Context>, views: usize, counts: DrawCounts) -> Result<Buffer> {
+    let size = size_of::<DrawCounts>() + 4 * views * counts.transparents as usize;
+    let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+    let buffer = Buffer::new(context, "draw order", size as u64, usage, Memory::Upload)?;
+    buffer.write(0, &[counts]);
+    Ok(buffer)
+}
+
+fn draw_buffers(context: &Arc<Context>, views: usize, counts: DrawCounts) -> Result<DrawBuffers> {
+    let lists = views as u64 + 1;
+    let commands = lists * u64::from(counts.surfaces + counts.transparents);
+    let instances = lists * u64::from(counts.instances);
+    Ok(DrawBuffers {
+        commands: device_buffer(context, "draw commands", commands * size_of::<DrawCommand>() as u64)?,
+        drawn_instances: device_buffer(context, "drawn instances", 4 * instances)?,
+    })
 }
 
 /// The shader sources that the config chooses.
@@ -191,35 +226,64 @@ fn check_resolution(context: &Context, [width, height]: [u32; 2]) -> Result<()> 
     Ok(())
 }
 
+/// A target for each view, which `depth_sets` name: images of its own, or with multiview layers of shared ones.
 fn targets(
     context: &Arc<Context>,
     config: &Config,
-    view: usize,
-    depth_set: vk::DescriptorSet,
-) -> Result<ViewTargets> {
+    depth_sets: &[vk::DescriptorSet],
+) -> Result<Vec<ViewTargets>> {
+    if config.multiview {
+        return layered_targets(context, config, "", depth_sets);
+    }
+    let sets = depth_sets.chunks(1).enumerate();
+    let own = sets.map(|(view, set)| layered_targets(context, config, &format!("[{view}]"), set));
+    Ok(own.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect())
+}
+
+/// Targets that are the layers of one image each of depth, colour and resolved colour.
+fn layered_targets(
+    context: &Arc<Context>,
+    config: &Config,
+    suffix: &str,
+    depth_sets: &[vk::DescriptorSet],
+) -> Result<Vec<ViewTargets>> {
     use vk::ImageUsageFlags as U;
     let [width, height] = config.resolution;
     let image = |name: &str, format, samples: u32, usage, aspect| {
-        let samples = vk::SampleCountFlags::from_raw(samples);
-        let desc = ImageDesc { width, height, mip_levels: 1, format, samples, usage, aspect };
-        Image::new(context, &format!("{name}[{view}]"), desc)
+        let (layers, samples) = (depth_sets.len() as u32, vk::SampleCountFlags::from_raw(samples));
+        let desc = ImageDesc { width, height, mip_levels: 1, layers, format, samples, usage, aspect };
+        Image::new(context, &format!("{name}{suffix}"), desc).map(Arc::new)
     };
     let depth_usage = U::DEPTH_STENCIL_ATTACHMENT | U::SAMPLED;
     let depth = image("depth", DEPTH_FORMAT, config.msaa, depth_usage, vk::ImageAspectFlags::DEPTH)?;
     let color_usage = U::COLOR_ATTACHMENT | U::TRANSFER_SRC;
     let color = image("color", COLOR_FORMAT, config.msaa, color_usage, vk::ImageAspectFlags::COLOR)?;
-    // A view needs a use that may have one.
+    // An image view needs a use that may have one.
     let resolved_usage = U::TRANSFER_SRC | U::TRANSFER_DST | U::SAMPLED;
     let resolved = (config.msaa > 1)
         .then(|| image("resolved", COLOR_FORMAT, 1, resolved_usage, vk::ImageAspectFlags::COLOR))
         .transpose()?;
+    let layer = |image: &Arc<Image>, index: usize| Layer {
+        image: image.clone(),
+        index: index as u32,
+        view: image.layer_views[index],
+    };
+    let target = |(index, &depth_set): (usize, &vk::DescriptorSet)| {
+        let depth = layer(&depth, index);
+        write_depth_set(context, depth_set, depth.view);
+        let resolved = resolved.as_ref().map(|image| layer(image, index));
+        ViewTargets { depth, color: layer(&color, index), resolved, depth_set }
+    };
+    Ok(depth_sets.iter().enumerate().map(target).collect())
+}
+
+fn write_depth_set(context: &Context, set: vk::DescriptorSet, view: vk::ImageView) {
     let info = [vk::DescriptorImageInfo::default()
-        .image_view(depth.view)
+        .image_view(view)
         .image_layout(vk::ImageLayout::DEPTH_READ_ONLY_OPTIMAL)];
     let write = vk::WriteDescriptorSet::default()
-        .dst_set(depth_set)
+        .dst_set(set)
         .descriptor_type(vk::DescriptorType::SAMPLED_IMAGE)
         .image_info(&info);
     unsafe { context.device.update_descriptor_sets(&[write], &[]) };
-    Ok(ViewTargets { depth, color, resolved, depth_set })
 }

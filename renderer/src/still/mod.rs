@@ -16,7 +16,7 @@ mod shapes;
 
 use crate::assign::Assigner;
 use crate::clustering::view_data;
-use crate::config::Config;
+use crate::config::{Config, Culling};
 use crate::gpu_interface::PixelData;
 use crate::measure::{Capacities, FrameCounts, ViewPixels};
 use crate::methods::MethodSpec;
@@ -152,6 +152,9 @@ pub fn render(
     show: &Show,
 ) -> Result<Still> {
     show.check(&run.method)?;
+    // What is seen is the same wherever it is culled and however it is drawn, and a camera of the still's own needs a list
+    // and a pass of its own.
+    let config = &Config { culling: Culling::Cpu, multiview: false, ..config.clone() };
     let plans = plan_frames(config, &inputs.recording, &run.method)?;
     let plan = &plans[0];
     let names = inputs.recording.view_names();
@@ -232,8 +235,8 @@ impl Painter<'_> {
             Camera::View(view) => (view, 0, vec![if all.len() > 1 { view } else { 0 }]),
             Camera::BirdsEye => {
                 let slot = &mut session.slots[SLOT];
-                slot.views.write(0, &[view_data(eye, None, self.config.resolution)]);
-                slot.draw_lists[0].update(&session.batches, eye);
+                slot.views.write(0, &[view_data(eye, None, self.config.resolution, session.reach)]);
+                slot.draw_lists[0].update(&session.batches, std::slice::from_ref(eye));
                 (0, 1, all)
             }
         };

@@ -1,6 +1,6 @@
 //! The commands of a still, after its frame has ended: what one camera sees, and what lies over it.
 
-use crate::frame::Frame;
+use crate::frame::{Eyes, Frame};
 use crate::pass::{Access, Recorder, Use};
 use crate::passes::{clay, depth, draws, lines, pixel_clusters, pixel_maps, resolve, spheres};
 use crate::pipelines::DebugPipelines;
@@ -36,7 +36,7 @@ pub struct Outputs<'a> {
 pub fn record(r: &mut Recorder, frame: &Frame, drawing: &Drawing, outputs: &Outputs) {
     let view = drawing.view;
     r.scope("still", |r| {
-        depth::record(r, frame, view);
+        depth::record(r, frame, Eyes::One(view));
         clay::record(r, frame, drawing.pipelines, view);
         copy_out(r, frame, view, outputs.clay);
         let maps = &frame.pipelines.pixel_maps;

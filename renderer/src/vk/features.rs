@@ -55,8 +55,11 @@ impl Features {
             .v11
             .multiview(self.v11.multiview == vk::TRUE)
             .shader_draw_parameters(self.v11.shader_draw_parameters == vk::TRUE);
-        enabled.v12 =
-            enabled.v12.scalar_block_layout(true).host_query_reset(self.v12.host_query_reset == vk::TRUE);
+        enabled.v12 = enabled
+            .v12
+            .scalar_block_layout(true)
+            .shader_output_layer(self.v12.shader_output_layer == vk::TRUE)
+            .host_query_reset(self.v12.host_query_reset == vk::TRUE);
         enabled.v13 = enabled
             .v13
             .dynamic_rendering(true)

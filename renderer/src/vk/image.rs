@@ -17,6 +17,8 @@ pub struct ImageDesc {
     pub height: u32,
     /// Levels, at least 1.
     pub mip_levels: u32,
+    /// Layers, at least 1.
+    pub layers: u32,
     /// Texel format.
     pub format: vk::Format,
     /// Samples a texel.
@@ -28,12 +30,13 @@ pub struct ImageDesc {
 }
 
 impl Default for ImageDesc {
-    /// A colour image of one level and one sample; size, format and usage must be set.
+    /// A colour image of one level, one layer and one sample; size, format and usage must be set.
     fn default() -> Self {
         Self {
             width: 0,
             height: 0,
             mip_levels: 1,
+            layers: 1,
             format: vk::Format::UNDEFINED,
             samples: vk::SampleCountFlags::TYPE_1,
             usage: vk::ImageUsageFlags::empty(),
@@ -42,18 +45,22 @@ impl Default for ImageDesc {
     }
 }
 
-/// A device-local image with its memory and a view of all its levels. Its layout starts as UNDEFINED.
+/// A device-local image with its memory, a view of all its levels and layers, and one of each layer. Its layout starts as UNDEFINED.
 pub struct Image {
     /// For commands.
     pub handle: vk::Image,
-    /// All levels, of [`Image::aspect`].
+    /// All levels and layers, of [`Image::aspect`]; an array where there are several layers.
     pub view: vk::ImageView,
+    /// All levels of each layer.
+    pub layer_views: Vec<vk::ImageView>,
     /// Texel format.
     pub format: vk::Format,
     /// Size of level 0, texels.
     pub extent: vk::Extent2D,
     /// Levels.
     pub mip_levels: u32,
+    /// Layers.
+    pub layers: u32,
     /// Samples a texel.
     pub samples: vk::SampleCountFlags,
     /// What the view shows.
@@ -69,13 +76,13 @@ impl Image {
     /// [`Error::Device`] when the size, format or sample count is over what the device has, or the memory is out.
     pub fn new(context: &Arc<Context>, name: &str, desc: ImageDesc) -> Result<Self> {
         check(context, name, &desc)?;
-        let ImageDesc { width, height, mip_levels, format, samples, usage, aspect } = desc;
+        let ImageDesc { width, height, mip_levels, layers, format, samples, usage, aspect } = desc;
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
             .format(format)
             .extent(vk::Extent3D { width, height, depth: 1 })
             .mip_levels(mip_levels)
-            .array_layers(1)
+            .array_layers(layers)
             .samples(samples)
             .usage(usage);
         let handle = unsafe { context.device.create_image(&info, None) }
@@ -84,23 +91,25 @@ impl Image {
         let mut image = Self {
             handle,
             view: vk::ImageView::null(),
+            layer_views: vec![],
             format,
             extent: vk::Extent2D { width, height },
             mip_levels,
+            layers,
             samples,
             aspect,
             allocation: None,
             context: context.clone(),
         };
         image.bind(name)?;
-        image.make_view(name)?;
+        image.make_views(name)?;
         Ok(image)
     }
 
-    /// All levels, for barriers and views.
+    /// All levels and layers, for barriers and views.
     pub fn range(&self) -> vk::ImageSubresourceRange {
         let range = vk::ImageSubresourceRange::default().aspect_mask(self.aspect);
-        range.level_count(self.mip_levels).layer_count(1)
+        range.level_count(self.mip_levels).layer_count(self.layers)
     }
 
     fn bind(&mut self, name: &str) -> Result<()> {
@@ -118,23 +127,42 @@ impl Image {
         bound.map_err(|e| vk_error(&format!("{name}: binding memory"), e))
     }
 
-    fn make_view(&mut self, name: &str) -> Result<()> {
+    fn make_views(&mut self, name: &str) -> Result<()> {
+        let kind =
+            if self.layers > 1 { vk::ImageViewType::TYPE_2D_ARRAY } else { vk::ImageViewType::TYPE_2D };
+        self.view = self.make_view(name, kind, self.range())?;
+        for layer in 0..self.layers {
+            let range = self.range().base_array_layer(layer).layer_count(1);
+            let view = self.make_view(&format!("{name} layer {layer}"), vk::ImageViewType::TYPE_2D, range)?;
+            self.layer_views.push(view);
+        }
+        Ok(())
+    }
+
+    fn make_view(
+        &self,
+        name: &str,
+        kind: vk::ImageViewType,
+        range: vk::ImageSubresourceRange,
+    ) -> Result<vk::ImageView> {
         let info = vk::ImageViewCreateInfo::default()
             .image(self.handle)
-            .view_type(vk::ImageViewType::TYPE_2D)
+            .view_type(kind)
             .format(self.format)
-            .subresource_range(self.range());
-        self.view = unsafe { self.context.device.create_image_view(&info, None) }
+            .subresource_range(range);
+        let view = unsafe { self.context.device.create_image_view(&info, None) }
             .map_err(|e| vk_error(&format!("{name}: making an image view"), e))?;
-        self.context.name(self.view, name);
-        Ok(())
+        self.context.name(view, name);
+        Ok(view)
     }
 }
 
 impl Drop for Image {
     fn drop(&mut self) {
         unsafe {
-            self.context.device.destroy_image_view(self.view, None);
+            for view in self.layer_views.drain(..).chain([self.view]) {
+                self.context.device.destroy_image_view(view, None);
+            }
             self.context.device.destroy_image(self.handle, None);
         }
         if let Some(allocation) = self.allocation.take() {
@@ -145,7 +173,7 @@ impl Drop for Image {
 
 /// Asks the device about this very combination, beyond the general limits.
 fn check(context: &Context, name: &str, desc: &ImageDesc) -> Result<()> {
-    let ImageDesc { width, height, mip_levels, format, samples, usage, .. } = *desc;
+    let ImageDesc { width, height, mip_levels, layers, format, samples, usage, .. } = *desc;
     let on = &context.info.name;
     let side = context.limits.max_image_dimension_2d;
     if !(1..=side).contains(&width) || !(1..=side).contains(&height) {
@@ -174,6 +202,10 @@ fn check(context: &Context, name: &str, desc: &ImageDesc) -> Result<()> {
     if !(1..=properties.max_mip_levels).contains(&mip_levels) {
         let most = properties.max_mip_levels;
         return Err(Error::Device(format!("{name}: {mip_levels} mip levels, {on} has 1 to {most}")));
+    }
+    if !(1..=properties.max_array_layers).contains(&layers) {
+        let most = properties.max_array_layers;
+        return Err(Error::Device(format!("{name}: {layers} layers, {on} has 1 to {most}")));
     }
     Ok(())
 }

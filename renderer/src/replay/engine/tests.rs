@@ -3,6 +3,7 @@
 use super::*;
 use crate::config::Lighting;
 use crate::cpu;
+use crate::frame::Eyes;
 use crate::geometry::{ClusterSpace, Frustum, Grid};
 use crate::methods::{Sharing, Space};
 use crate::passes::{assign, depth, readback, scan};
@@ -66,7 +67,17 @@ impl Bench {
         lights: &[PointLight],
         capacities: Capacities,
     ) -> Self {
-        let mut session = Session::new(config, &street(), 1).unwrap();
+        Self::with_scene(config, &street(), (method, grid), lights, capacities)
+    }
+
+    fn with_scene(
+        config: &Config,
+        scene: &Scene,
+        (method, grid): (MethodSpec, Grid),
+        lights: &[PointLight],
+        capacities: Capacities,
+    ) -> Self {
+        let mut session = Session::new(config, scene, 1).unwrap();
         let words = grid.cluster_count().div_ceil(32);
         let plan = FramePlan { frame: 0, views: vec![view()], grids: vec![grid] };
         let plans = std::slice::from_ref(&plan);
@@ -117,6 +128,7 @@ impl Bench {
 }
 
 mod assign_equality;
+mod cull;
 mod sphere_tests;
 
 /// A small deterministic generator; quality does not matter here.
@@ -203,6 +215,7 @@ fn staged_times(bench: &mut Bench, compute: u32, raster: u32) -> [f64; 2] {
     for _ in 0..4 {
         bench.run(|r, frame| {
             r.scope("frame", |r| {
+                crate::passes::cull::record(r, frame, Eyes::One(0));
                 r.scope("compute", |r| {
                     for _ in 0..compute {
                         assign::count_lights(r, frame, 0);
@@ -210,7 +223,7 @@ fn staged_times(bench: &mut Bench, compute: u32, raster: u32) -> [f64; 2] {
                 });
                 r.scope("raster", |r| {
                     for _ in 0..raster {
-                        depth::record(r, frame, 0);
+                        depth::record(r, frame, Eyes::One(0));
                     }
                 });
             });

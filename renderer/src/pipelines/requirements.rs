@@ -1,0 +1,38 @@
+//! What a configuration asks of the device.
+
+use crate::config::{Config, Culling, Marking};
+use crate::vk::Context;
+use crate::{Error, Result};
+
+/// Refuses what the device cannot do, before anything is made.
+pub fn check_device(context: &Context, config: &Config) -> Result<()> {
+    let limits = &context.limits;
+    let (samples, marking) = (config.msaa, config.marking);
+    if !limits.sample_counts.contains(&samples) {
+        return Err(Error::Device(format!(
+            "{} cannot render {samples} samples per pixel (it can: {:?}): change --msaa",
+            context.info.name, limits.sample_counts
+        )));
+    }
+    if samples > 1 && marking == Marking::Depth && !limits.sample_rate_shading {
+        return Err(Error::Device(format!(
+            "{} cannot shade per sample, which marking from depth needs with MSAA: use --marking geometry",
+            context.info.name
+        )));
+    }
+    let indirect = limits.max_draw_indirect_count > 1 && limits.draw_indirect_first_instance;
+    if config.culling == Culling::Gpu && !indirect {
+        return Err(Error::Device(format!(
+            "{} lacks multiDrawIndirect or drawIndirectFirstInstance, which culling on the device needs: use --culling \
+             cpu",
+            context.info.name
+        )));
+    }
+    if config.multiview && !limits.shader_output_layer {
+        return Err(Error::Device(format!(
+            "{} lacks shaderOutputLayer, which drawing all views at once needs: leave --multiview out",
+            context.info.name
+        )));
+    }
+    Ok(())
+}

@@ -1,0 +1,94 @@
+//! Stage `cull` against its twin, command by command.
+
+use super::*;
+use crate::culling::WorldBox;
+use crate::draw_slots::SlotOrder;
+use crate::gpu_interface::DrawCommand;
+use crate::passes::cull;
+
+/// How close to a plane f32 may decide otherwise, metres: the planes' slack is below it.
+const EPSILON: f64 = 1e-3;
+
+/// Cameras inside, beside and outside the scene, some with little of it before them.
+fn views() -> Vec<View> {
+    let place = |x: f64, z: f64, yaw: f64, fov: f64| {
+        let pose = Pose { position: DVec3::new(x, 2.0, z), rotation: DQuat::from_rotation_y(yaw) };
+        View { pose, frustum: Frustum::from_fov(fov, RESOLUTION, 0.4, 60.0).unwrap() }
+    };
+    vec![
+        place(1.0, 3.0, 0.7, 1.3),
+        place(-4.0, -20.0, 3.0, 0.3),
+        place(200.0, 0.0, 1.6, 1.0),
+        place(-9.0, 9.0, 0.0, 2.0),
+    ]
+}
+
+/// What the device draws: (instances of the commands in order, commands).
+fn drawn(bench: &mut Bench) -> (Vec<u32>, Vec<DrawCommand>) {
+    let (commands, instances) = {
+        let draws = &bench.session.draws;
+        (draws.commands.size, draws.drawn_instances.size)
+    };
+    let usage = vk::BufferUsageFlags::TRANSFER_DST;
+    let context = bench.session.context.clone();
+    let read = |size| Buffer::new(&context, "test result", size, usage, Memory::Readback).unwrap();
+    let (commands, instances) = (read(commands), read(instances));
+    bench.run(|r, frame| {
+        cull::record(r, frame, Eyes::One(0));
+        let Draws::Indirect { buffers, .. } = &frame.draws else { panic!("the device culls by default") };
+        readback::copy(r, &buffers.commands, &commands, 0, commands.size);
+        readback::copy(r, &buffers.drawn_instances, &instances, 0, instances.size);
+    });
+    let counts = bench.session.draw_slots.counts;
+    let list: Vec<u32> = instances.read(0, counts.instances as usize);
+    let commands: Vec<DrawCommand> = commands.read(0, bench.session.draw_slots.slots.len());
+    let of_command = |c: &DrawCommand| {
+        let first = c.first_instance as usize;
+        list[first..first + c.instance_count as usize].to_vec()
+    };
+    (commands.iter().flat_map(of_command).collect(), commands)
+}
+
+/// Instances of the slots in the order in which commands draw them.
+fn in_order(bench: &Bench, view: &View) -> Vec<u32> {
+    let slots = &bench.session.draw_slots;
+    let mut order = SlotOrder::default();
+    order.update(slots, view);
+    let surfaces = 0..slots.counts.surfaces;
+    surfaces
+        .chain(order.slots)
+        .map(|slot| &slots.slots[slot as usize])
+        .flat_map(|slot| slot.first_instance..slot.first_instance + slot.instance_count)
+        .collect()
+}
+
+fn compare(scene: &str) {
+    let room = Capacities { visible_clusters: 16, light_indices: 16 };
+    let scene = by_name(scene).expect("a built-in scene");
+    let mut bench = Bench::with_scene(&config(), &scene, (PERSP, box_grid([8, 1, 1])), &lights(10), room);
+    let boxes: Vec<WorldBox> = bench.session.batches.boxes.clone();
+    let mut counts = vec![];
+    for view in views() {
+        let plan = FramePlan { frame: 0, views: vec![view], grids: vec![box_grid([8, 1, 1])] };
+        bench.engine.write_host_data(&mut bench.session, 0, &plan, &lights(10));
+        let (device, commands) = drawn(&mut bench);
+        assert_eq!(drawn(&mut bench), (device.clone(), commands.clone()), "a second run differs");
+        let twin = cpu::cull(&boxes, &[view], EPSILON);
+        let sure = |list: Vec<u32>| -> Vec<u32> {
+            list.into_iter().filter(|&instance| !twin.borderline[instance as usize]).collect()
+        };
+        let expected = in_order(&bench, &view).into_iter().filter(|&i| twin.visible[i as usize]).collect();
+        assert_eq!(sure(device.clone()), sure(expected));
+        let lost = |i: &u32| twin.visible[*i as usize] && !device.contains(i);
+        assert!(!(0..boxes.len() as u32).any(|i| lost(&i)), "a borderline box is lost");
+        assert!(twin.borderline.iter().filter(|&&close| close).count() * 50 < boxes.len());
+        counts.push(device.len());
+    }
+    assert!(counts.iter().all(|&count| count < boxes.len()) && counts.iter().any(|&count| count > 100));
+}
+
+#[test]
+fn commands_equal_their_twin() {
+    compare("street");
+    compare("temple");
+}
