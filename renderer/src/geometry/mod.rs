@@ -22,6 +22,6 @@ mod worked_values;
 
 pub use enclosing::{Enclosing, enclosing};
 pub use frustum::Frustum;
-pub use grid::{ClusterSpace, Grid};
+pub use grid::{ClusterSpace, Grid, cell_at};
 pub use plan::plan;
 pub use sphere::{CellTest, Plane, SphereTest, axis_box, half_space};

@@ -9,7 +9,7 @@
 //!   <run>/                 named by method (and lighting, where there are several)
 //!     run.json             how the run came to be
 //!     frames.csv  clusterings.csv  histograms.csv  timings.csv  trace.json
-//!     frames/NNNNNN.exr  NNNNNN.png  NNNNNN_lights.png  NNNNNN_clusters.png
+//!     frames/NNNNNN.exr  NNNNNN.png  NNNNNN_lights.png  NNNNNN_clusters.png  NNNNNN_birdseye.png
 //!   <run>.error.json       why a run failed, until it succeeds
 //! ```
 //!

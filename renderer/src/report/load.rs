@@ -111,7 +111,7 @@ fn read_run(name: &str, directory: &Path, file: &RunFile) -> Result<Run> {
     }
     Ok(Run {
         name: name.to_owned(),
-        setting: file.setting(views),
+        setting: file.setting(views, method),
         method,
         lighting: file.lighting(),
         device: file.device(),
@@ -135,8 +135,10 @@ fn pictures(directory: &Path) -> Vec<Picture> {
             let image = entry.path();
             let stem = image.file_name()?.to_str()?.strip_suffix(".png")?;
             let frame = stem.parse().ok()?;
-            let lights = Some(directory.join(format!("{stem}_lights.png"))).filter(|path| path.is_file());
-            Some(Picture { frame, image, lights })
+            let [lights, clusters, birdseye] = ["lights", "clusters", "birdseye"].map(|shown| {
+                Some(directory.join(format!("{stem}_{shown}.png"))).filter(|path| path.is_file())
+            });
+            Some(Picture { frame, image, lights, clusters, birdseye })
         })
         .collect();
     found.sort_by_key(|picture| picture.frame);
