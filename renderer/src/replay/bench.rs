@@ -1,6 +1,10 @@
 //! Light assignment alone, timed by every way in one process, in turn: what runs on the machine beside it slows all
 //! ways alike.
 
+mod scopes;
+
+pub use scopes::{ScopesRow, bench_scopes};
+
 use super::engine::{Engine, Mode};
 use super::plan::{FramePlan, plan_frames};
 use super::session::Session;

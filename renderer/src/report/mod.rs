@@ -15,6 +15,7 @@
 //!   figures/ID.svg .csv  each figure, and the numbers plotted
 //! ```
 
+pub mod assign_bench;
 mod bins;
 mod chart;
 mod claims;

@@ -122,6 +122,7 @@ fn sample() -> Chart {
         ],
         x_label: "frame".into(),
         legend: vec![Key { label: "\"quoted\"".into(), look }],
+        ..Chart::default()
     }
 }
 

@@ -85,7 +85,7 @@ fn panel_height(chart: &Chart, width: f64) -> f64 {
         Plot::Picture(_) => lowest,
         Plot::Heat(_) => 190.0,
         Plot::Stack(_) => 140.0,
-        Plot::Lines(_) if chart.rows.len() == 1 => 300.0,
+        Plot::Lines(_) if chart.logarithmic || chart.rows.len() == 1 => 300.0,
         Plot::Lines(_) => 124.0,
     });
     tallest.fold(20.0, f64::max)

@@ -1,7 +1,7 @@
 //! Tables over several ways of assignment.
 
 use super::text;
-use crate::report::format::readable;
+use crate::report::format::{readable, significant};
 use crate::report::tables::{Row, Table};
 use std::fmt::Write;
 
@@ -46,7 +46,12 @@ fn line(body: &mut String, row: &Row) {
         let _ = write!(body, "<td class=\"lighting\">{}</td>", text(label));
     }
     for number in &row.numbers {
-        let _ = write!(body, "<td>{}</td>", number.map_or("–".into(), readable));
+        let _ = write!(body, "<td>{}</td>", number.map_or("–".into(), shown));
     }
     body.push_str("</tr>\n");
+}
+
+/// Narrower than elsewhere: there are many columns.
+fn shown(number: f64) -> String {
+    if number < 100.0 { significant(number, 3) } else { readable(number.round()) }
 }

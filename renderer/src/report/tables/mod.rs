@@ -136,7 +136,7 @@ mod tests {
         let text = String::from_utf8(csv).unwrap();
         let lines: Vec<&str> = text.lines().collect();
         assert!(
-            lines[0].starts_with("setting,method,lighting,lights_assigned_by,visible_clusters_Indi,"),
+            lines[0].starts_with("setting,method,lighting,assigned_by,visible_clusters_Indi,"),
             "{}",
             lines[0]
         );

@@ -25,7 +25,7 @@ pub fn table(set: &ResultSet) -> Table {
         title: "Tests of light against cluster",
         caption: "False positives are the light indices beyond those of the exact test, in per cent of them. Assignment \
                   is clustering without visibility. Means over frames.",
-        labels: &["method", "lighting", "test", "lights assigned by"],
+        labels: &["method", "lighting", "test", "assigned by"],
         groups: vec![
             ("light indices", &[""]),
             ("false positives %", &[""]),
