@@ -10,7 +10,13 @@ use std::path::Path;
 const TABLES: [&str; 2] = ["clusterings.csv", "histograms.csv"];
 
 pub(super) fn join(a: &Path, b: &Path) -> Result<Comparison> {
-    let [runs_a, runs_b] = [find_distinct(a)?, find_distinct(b)?];
+    let [mut runs_a, mut runs_b] = [read::find_runs(a)?, read::find_runs(b)?];
+    // Lists are the same by every way of assignment: results by one way compare with results by another.
+    if has_several_ways(&runs_a) || has_several_ways(&runs_b) {
+        runs_a.iter_mut().chain(&mut runs_b).for_each(RunEntry::tell_ways_apart);
+    }
+    check_distinct(a, &runs_a)?;
+    check_distinct(b, &runs_b)?;
     let twin = |run: &RunEntry, others: &[RunEntry]| others.iter().position(|o| o.identity == run.identity);
     let mut runs = vec![];
     let mut missing_in_b = vec![];
@@ -25,10 +31,13 @@ pub(super) fn join(a: &Path, b: &Path) -> Result<Comparison> {
     Ok(Comparison { a: result_set(a, &runs_a), b: result_set(b, &runs_b), runs, missing_in_a, missing_in_b })
 }
 
-fn find_distinct(directory: &Path) -> Result<Vec<RunEntry>> {
-    let runs = read::find_runs(directory)?;
+fn has_several_ways(runs: &[RunEntry]) -> bool {
+    runs.iter().any(|run| run.assign != runs[0].assign)
+}
+
+fn check_distinct(directory: &Path, runs: &[RunEntry]) -> Result<()> {
     let mut seen = BTreeMap::new();
-    for run in &runs {
+    for run in runs {
         if let Some(earlier) = seen.insert(&run.identity, run) {
             return Err(Error::file(
                 directory,
@@ -40,7 +49,7 @@ fn find_distinct(directory: &Path) -> Result<Vec<RunEntry>> {
             ));
         }
     }
-    Ok(runs)
+    Ok(())
 }
 
 fn result_set(directory: &Path, runs: &[RunEntry]) -> ResultSet {

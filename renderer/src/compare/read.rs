@@ -1,6 +1,8 @@
 //! Reading result sets: which runs there are, and the tables of one run.
 
-use crate::output::RUN_FORMAT;
+use crate::methods::MethodSpec;
+use crate::output::{self, RUN_FORMAT};
+use crate::report::Way;
 use crate::{Error, Result};
 use serde::Deserialize;
 use serde_json::{Map, Value};
@@ -20,11 +22,21 @@ pub(super) type Identity = Vec<String>;
 #[derive(Debug)]
 pub(super) struct RunEntry {
     pub identity: Identity,
+    /// The way of assignment.
+    pub assign: String,
     pub directory: PathBuf,
     /// What tells it from other runs, for people.
     pub label: String,
     pub program: String,
     pub device: String,
+}
+
+impl RunEntry {
+    /// Makes the way of assignment part of what the run was asked to do.
+    pub fn tell_ways_apart(&mut self) {
+        self.identity.push(self.assign.clone());
+        self.label += &format!(", assigned by {}", self.assign);
+    }
 }
 
 #[derive(Deserialize)]
@@ -53,51 +65,39 @@ struct Device {
 
 /// All runs under a directory, by path. What stands in a run's own directory is not searched.
 pub(super) fn find_runs(directory: &Path) -> Result<Vec<RunEntry>> {
-    let mut found = vec![];
-    search(directory, &mut found)?;
-    if found.is_empty() {
-        return Err(Error::file(directory, "holds no result: no run.json in it or below it"));
-    }
-    found.iter().map(|path| read_entry(path)).collect()
-}
-
-fn search(directory: &Path, found: &mut Vec<PathBuf>) -> Result<()> {
-    if directory.join("run.json").is_file() {
-        found.push(directory.to_owned());
-        return Ok(());
-    }
-    let failed = |error| Error::file(directory, format!("the directory cannot be read: {error}"));
-    let mut inner = vec![];
-    for entry in fs::read_dir(directory).map_err(failed)? {
-        let entry = entry.map_err(failed)?;
-        // A name with a dot belongs to a result that is being written.
-        let hidden = entry.file_name().to_string_lossy().starts_with('.');
-        if !hidden && entry.file_type().map_err(failed)?.is_dir() {
-            inner.push(entry.path());
-        }
-    }
-    inner.sort();
-    inner.iter().try_for_each(|path| search(path, found))
+    output::find_runs(directory)?.iter().map(|path| read_entry(path)).collect()
 }
 
 fn read_entry(directory: &Path) -> Result<RunEntry> {
     let path = directory.join("run.json");
-    let text = fs::read_to_string(&path).map_err(|error| Error::file(&path, error))?;
+    let text =
+        fs::read_to_string(&path).map_err(|error| Error::file(&path, format!("cannot be read: {error}")))?;
     let value: Value = serde_json::from_str(&text)
         .map_err(|error| Error::file(&path, format!("is no JSON: {error}: run it again")))?;
     if value["format"] != RUN_FORMAT {
-        let message = format!("has format {}, this program reads {RUN_FORMAT}", value["format"]);
+        let message =
+            format!("has format {}, this program reads {RUN_FORMAT}: run it again", value["format"]);
         return Err(Error::file(&path, message));
     }
     let run: RunFile = serde_json::from_value(value)
-        .map_err(|error| Error::file(&path, format!("is no manifest of a run: {error}")))?;
+        .map_err(|error| Error::file(&path, format!("is no manifest of a run: {error}: run it again")))?;
+    let method = run.method.parse().map_err(|error| Error::file(&path, format!("method: {error}")))?;
+    let way = way(&run, method);
+    let mut identity = identity(&run);
+    identity.push(way.test(method).to_owned());
     Ok(RunEntry {
-        identity: identity(&run),
+        identity,
+        assign: way.assign,
         label: label(&run),
         directory: directory.to_owned(),
         program: format!("manylight {} ({:.12})", run.version, run.git_revision),
         device: format!("{} ({})", run.device.name, run.device.driver),
     })
+}
+
+fn way(run: &RunFile, method: MethodSpec) -> Way {
+    let [assign, test] = ["assign", "test"].map(|axis| run.config.get(axis)?.as_str().map(str::to_owned));
+    Way::new(assign, test, method)
 }
 
 fn identity(run: &RunFile) -> Identity {
@@ -163,6 +163,9 @@ pub(super) fn counters(directory: &Path) -> Result<Counters> {
         table.frames.insert(frame_of(header, row)?, values);
         Ok(())
     })?;
+    if table.frames.is_empty() {
+        return Err(Error::file(&path, "holds no frames: run it again"));
+    }
     Ok(table)
 }
 
@@ -220,14 +223,20 @@ fn for_each_row(
     path: &Path,
     mut each: impl FnMut(&csv::StringRecord, &csv::StringRecord) -> Result<(), &'static str>,
 ) -> Result<()> {
-    let failed = |error: csv::Error| Error::file(path, format!("is no table of a run: {error}"));
+    let failed = |error: csv::Error| match error.into_kind() {
+        csv::ErrorKind::Io(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            Error::file(path, "is missing beside its run.json: run it again")
+        }
+        csv::ErrorKind::Io(error) => Error::file(path, format!("cannot be read: {error}")),
+        _ => Error::file(path, "is damaged: run it again"),
+    };
     let mut reader = csv::Reader::from_path(path).map_err(failed)?;
     let header = reader.headers().map_err(failed)?.clone();
     let mut row = csv::StringRecord::new();
     while reader.read_record(&mut row).map_err(failed)? {
         each(&header, &row).map_err(|message| {
             let line = row.position().map_or(0, csv::Position::line);
-            Error::file(path, format!("line {line}: {message}"))
+            Error::file(path, format!("line {line}: {message}: run it again"))
         })?;
     }
     Ok(())

@@ -33,6 +33,8 @@ mod testing;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use way::Way;
+
 pub use claims::{ByWay, Claim, Evidence, Number, Verdict};
 
 use crate::output::write_whole;

@@ -125,6 +125,11 @@ impl Chart {
         svg.close("g");
     }
 
+    /// Frame numbers are not shortened: 1500, not 1.5k.
+    fn x_tick(&self, value: f64) -> String {
+        if value.fract() == 0.0 && !self.logarithmic { format!("{value:.0}") } else { short(value) }
+    }
+
     fn draw_notes(&self, svg: &mut Svg, panel: usize, [left, top, ..]: [f64; 4]) {
         for (line, note) in self.notes.get(panel).into_iter().flatten().enumerate() {
             let at = [left + 8.0, top + 15.0 + 13.0 * line as f64];
@@ -181,7 +186,7 @@ impl Chart {
             let at = x.at(tick);
             svg.path("grid", &format!("M{} {}V{}", place(at), place(top), place(bottom)));
             if is_last {
-                svg.label([at, bottom + 15.0], Anchor::Middle, "tick", &plain_tick(tick));
+                svg.label([at, bottom + 15.0], Anchor::Middle, "tick", &self.x_tick(tick));
             }
         }
         svg.path("axis", &format!("M{} {}H{}", place(left), place(bottom), place(left + width)));
@@ -193,11 +198,6 @@ impl Chart {
 
 fn heat_of(plot: &Plot) -> Option<&Heat> {
     if let Plot::Heat(heat) = plot { Some(heat) } else { None }
-}
-
-/// Frame numbers are not shortened: 1500, not 1.5k.
-fn plain_tick(value: f64) -> String {
-    if value.fract() == 0.0 { format!("{value:.0}") } else { short(value) }
 }
 
 fn ends(values: impl Iterator<Item = f64>, room: f64) -> [f64; 2] {

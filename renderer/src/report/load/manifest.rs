@@ -101,8 +101,11 @@ pub fn read(path: &Path) -> Result<RunFile> {
         }
     }
     serde_path_to_error::deserialize(value).map_err(|error| {
-        let field = error.path().to_string();
-        Error::file(path, format!("{field}: {}: measure anew", error.into_inner()))
+        let field = match error.path().to_string().as_str() {
+            "." => String::new(),
+            field => format!("{field}: "),
+        };
+        Error::file(path, format!("{field}{}: measure anew", error.into_inner()))
     })
 }
 
