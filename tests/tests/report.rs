@@ -229,7 +229,11 @@ fn ways_of_assignment_stand_side_by_side_and_never_in_one_figure() {
             let out = results.path().join(format!("{way}-{test}"));
             write_run(&out, ["street", "bistro-vive"], 2, method, 1000);
             let manifest = out.join(format!("{method}_1000/run.json"));
-            edit(&manifest, "\"assign\": \"brute\"", &format!("\"assign\": \"{way}\", \"test\": \"{test}\""));
+            let mut value: serde_json::Value =
+                serde_json::from_str(&fs::read_to_string(&manifest).unwrap()).unwrap();
+            value["config"]["assign"] = way.into();
+            value["config"]["test"] = test.into();
+            fs::write(&manifest, value.to_string()).unwrap();
         }
     }
     assert!(report(&[results.path().as_ref()]).status.success());
