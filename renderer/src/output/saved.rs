@@ -24,8 +24,8 @@ struct FrameRow {
     gpu_ms_frame: Option<f64>,
 }
 
-/// The directories of all runs in or below `directory`, by name. Hidden ones are unfinished, and what stands in a run's own
-/// is not searched.
+/// The directories of all runs in or below `directory`, by name. Hidden ones are unfinished, and what stands in a
+/// run's own is not searched.
 ///
 /// # Errors
 /// It is missing, is no directory, cannot be read, or holds no run.
