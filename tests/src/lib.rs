@@ -1,6 +1,7 @@
 //! What the whole-program tests share: running the binary, running the library, reference data.
 
 use flate2::read::GzDecoder;
+use image::RgbImage;
 use manylight::config::Config;
 use manylight::measure::{ClusterLists, FrameCounts, FrameTimes, ViewPixels};
 use manylight::methods::MethodSpec;
@@ -74,6 +75,8 @@ pub struct Run {
     pub times: Vec<FrameTimes>,
     /// Images by frame.
     pub images: Vec<(u32, Vec<ViewPixels>)>,
+    /// Clusters from above, by frame.
+    pub birdseyes: Vec<(u32, RgbImage)>,
     /// Lists by frame and clustering.
     pub lists: Vec<ClusterLists>,
     /// What the run says of itself.
@@ -83,6 +86,7 @@ pub struct Run {
 #[derive(Default)]
 struct Collect {
     images: Vec<(u32, Vec<ViewPixels>)>,
+    birdseyes: Vec<(u32, RgbImage)>,
     lists: Vec<ClusterLists>,
     runs: Vec<Run>,
 }
@@ -97,6 +101,11 @@ impl RunSink for Collect {
         Ok(())
     }
 
+    fn birdseye(&mut self, frame: u32, image: &RgbImage) -> manylight::Result<()> {
+        self.birdseyes.push((frame, image.clone()));
+        Ok(())
+    }
+
     fn lists(&mut self, lists: ClusterLists) -> manylight::Result<()> {
         self.lists.push(lists);
         Ok(())
@@ -108,6 +117,7 @@ impl RunSink for Collect {
             counts: std::mem::take(&mut result.counts),
             times: std::mem::take(&mut result.times),
             images: std::mem::take(&mut self.images),
+            birdseyes: std::mem::take(&mut self.birdseyes),
             lists: std::mem::take(&mut self.lists),
             result,
         });

@@ -64,8 +64,8 @@ fn a_replay_writes_every_file_and_the_table() {
         assert!(rows("timings.csv") > 20);
         assert_eq!(rows("clusterings.csv"), if run.starts_with("indi") { 5 } else { 3 });
         assert!(rows("histograms.csv") > 10);
-        for image in ["000300.exr", "000300.png", "000300_lights.png", "000300_clusters.png"] {
-            assert!(directory.join("frames").join(image).is_file(), "{run}/{image}");
+        for image in [".exr", ".png", "_lights.png", "_clusters.png", "_birdseye.png"] {
+            assert!(directory.join(format!("frames/000300{image}")).is_file(), "{run}, {image}");
         }
         let manifest: serde_json::Value = serde_json::from_str(&read(directory.join("run.json"))).unwrap();
         assert_eq!(manifest["format"], "manylight.run/1");

@@ -1,7 +1,7 @@
 //! Stills: the onlooker changes nothing, sees the grid where it is, and draws what it is asked for.
 
 use glam::{DVec2, DVec3};
-use manylight::config::{Config, FrameRange, Lighting};
+use manylight::config::{Config, ExrFrames, FrameRange, Lighting};
 use manylight::output::planned_runs;
 use manylight::replay::{FramePlan, Inputs, plan_frames};
 use manylight::still::{Item, Show, Still, render};
@@ -136,4 +136,19 @@ fn what_cannot_be_shown_is_refused_before_the_device_is_asked() {
     };
     assert!(refused(None, &[Item::Clusters]).contains("all-lights has no clusters"));
     assert!(refused(Some("left"), &[Item::Frusta]).contains("birdseye"));
+}
+
+#[test]
+fn a_replay_sees_from_above_what_a_still_sees_and_counts_as_if_nobody_looked() {
+    for (recording, method) in [("bistro", "indi-displ-64-32"), ("bistro-vive", "encl-ortho-4")] {
+        let alone = config(recording, method);
+        let frames = FrameRange { first: FRAME, end: Some(FRAME + 2), step: 1 };
+        let replayed = |exr| run(Config { frames, exr: ExrFrames::List(exr), ..alone.clone() }).remove(0);
+        let (watched, unwatched) = (replayed(vec![FRAME]), replayed(vec![]));
+        assert_eq!(watched.counts, unwatched.counts, "{method}");
+        assert!(unwatched.birdseyes.is_empty());
+        let inputs = Inputs::load(&alone).unwrap();
+        let still = still(&alone, &inputs, Some("birdseye"), &[Item::Clusters, Item::Frusta]);
+        assert_eq!(watched.birdseyes, [(FRAME, still.image)], "{method}");
+    }
 }

@@ -1,11 +1,14 @@
 //! `manylight bench`.
 
+mod scopes;
+
 use super::{Console, Interrupt};
 use crate::assign::Assigner;
 use crate::config::{Assign, Case, Config, Layer, Lighting, Test};
 use crate::output::write_whole;
 use crate::replay::bench::{AssignBench, BenchRow, bench_assign};
 use crate::replay::{Inputs, Watch};
+use crate::report::assign_bench::{Sample, write_figures};
 use crate::{Error, Result};
 use clap::Subcommand;
 use std::path::PathBuf;
@@ -15,6 +18,8 @@ use std::path::PathBuf;
 pub enum Bench {
     /// Time light assignment by every way with every test, in turn, and write a CSV
     Assign(Box<Args>),
+    /// Time frames with every stage timed and with the frame timed alone, in turn: what measuring costs
+    Scopes(Box<scopes::Args>),
 }
 
 /// Arguments of `bench assign`.
@@ -66,14 +71,21 @@ pub struct Args {
     #[arg(long, value_name = "DIR")]
     shaders: Option<PathBuf>,
 
-    /// The CSV.
+    /// The CSV; its figures and the exponents of growth lie beside it.
     #[arg(long, value_name = "FILE.csv", default_value = "out/bench_assign.csv")]
     out: PathBuf,
 }
 
-/// Measures, and writes the CSV once all is measured.
+/// Runs the benchmark that is asked for.
 pub fn run(bench: Bench, console: &Console) -> Result<()> {
-    let Bench::Assign(args) = bench;
+    match bench {
+        Bench::Assign(args) => assign(&args, console),
+        Bench::Scopes(args) => scopes::run(*args, console),
+    }
+}
+
+/// Measures, and writes the CSV and its figures once all is measured.
+fn assign(args: &Args, console: &Console) -> Result<()> {
     let config = args.config()?;
     let bench = args.bench()?;
     let interrupt = Interrupt::install()?;
@@ -100,7 +112,23 @@ pub fn run(bench: Bench, console: &Console) -> Result<()> {
         ));
     }
     console.note(&format!("results are in {}", args.out.display()));
+    let samples = rows.iter().map(sample).collect::<Result<Vec<_>>>()?;
+    for path in write_figures(&args.out, &samples)? {
+        console.note(&format!("and in {}", path.display()));
+    }
     Ok(())
+}
+
+/// What figures take of a row.
+fn sample(row: &BenchRow) -> Result<Sample> {
+    Ok(Sample {
+        lights: row.lights,
+        method: row.method.parse()?,
+        way: format!("{}, {}", row.assign, row.test),
+        frame: row.frame,
+        visible_clusters: row.visible_clusters,
+        gpu_ms: row.gpu_ms,
+    })
 }
 
 impl Args {

@@ -1,6 +1,6 @@
 //! Reading result sets: which runs there are, and the tables of one run.
 
-use crate::output::RUN_FORMAT;
+use crate::output::{self, RUN_FORMAT};
 use crate::{Error, Result};
 use serde::Deserialize;
 use serde_json::{Map, Value};
@@ -59,44 +59,22 @@ struct Device {
 
 /// All runs under a directory, by path. What stands in a run's own directory is not searched.
 pub(super) fn find_runs(directory: &Path) -> Result<Vec<RunEntry>> {
-    let mut found = vec![];
-    search(directory, &mut found)?;
-    if found.is_empty() {
-        return Err(Error::file(directory, "holds no result: no run.json in it or below it"));
-    }
-    found.iter().map(|path| read_entry(path)).collect()
-}
-
-fn search(directory: &Path, found: &mut Vec<PathBuf>) -> Result<()> {
-    if directory.join("run.json").is_file() {
-        found.push(directory.to_owned());
-        return Ok(());
-    }
-    let failed = |error| Error::file(directory, format!("the directory cannot be read: {error}"));
-    let mut inner = vec![];
-    for entry in fs::read_dir(directory).map_err(failed)? {
-        let entry = entry.map_err(failed)?;
-        // A name with a dot belongs to a result that is being written.
-        let hidden = entry.file_name().to_string_lossy().starts_with('.');
-        if !hidden && entry.file_type().map_err(failed)?.is_dir() {
-            inner.push(entry.path());
-        }
-    }
-    inner.sort();
-    inner.iter().try_for_each(|path| search(path, found))
+    output::find_runs(directory)?.iter().map(|path| read_entry(path)).collect()
 }
 
 fn read_entry(directory: &Path) -> Result<RunEntry> {
     let path = directory.join("run.json");
-    let text = fs::read_to_string(&path).map_err(|error| Error::file(&path, error))?;
+    let text =
+        fs::read_to_string(&path).map_err(|error| Error::file(&path, format!("cannot be read: {error}")))?;
     let value: Value = serde_json::from_str(&text)
         .map_err(|error| Error::file(&path, format!("is no JSON: {error}: run it again")))?;
     if value["format"] != RUN_FORMAT {
-        let message = format!("has format {}, this program reads {RUN_FORMAT}", value["format"]);
+        let message =
+            format!("has format {}, this program reads {RUN_FORMAT}: run it again", value["format"]);
         return Err(Error::file(&path, message));
     }
     let run: RunFile = serde_json::from_value(value)
-        .map_err(|error| Error::file(&path, format!("is no manifest of a run: {error}")))?;
+        .map_err(|error| Error::file(&path, format!("is no manifest of a run: {error}: run it again")))?;
     Ok(RunEntry {
         identity: identity(&run),
         way: WAY.map(|field| run.config.get(field).and_then(Value::as_str).unwrap_or("?").to_owned()),
@@ -178,6 +156,9 @@ pub(super) fn counters(directory: &Path) -> Result<Counters> {
         table.frames.insert(frame_of(header, row)?, values);
         Ok(())
     })?;
+    if table.frames.is_empty() {
+        return Err(Error::file(&path, "holds no frames: run it again"));
+    }
     Ok(table)
 }
 
@@ -235,14 +216,20 @@ fn for_each_row(
     path: &Path,
     mut each: impl FnMut(&csv::StringRecord, &csv::StringRecord) -> Result<(), &'static str>,
 ) -> Result<()> {
-    let failed = |error: csv::Error| Error::file(path, format!("is no table of a run: {error}"));
+    let failed = |error: csv::Error| match error.into_kind() {
+        csv::ErrorKind::Io(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            Error::file(path, "is missing beside its run.json: run it again")
+        }
+        csv::ErrorKind::Io(error) => Error::file(path, format!("cannot be read: {error}")),
+        _ => Error::file(path, "is damaged: run it again"),
+    };
     let mut reader = csv::Reader::from_path(path).map_err(failed)?;
     let header = reader.headers().map_err(failed)?.clone();
     let mut row = csv::StringRecord::new();
     while reader.read_record(&mut row).map_err(failed)? {
         each(&header, &row).map_err(|message| {
             let line = row.position().map_or(0, csv::Position::line);
-            Error::file(path, format!("line {line}: {message}"))
+            Error::file(path, format!("line {line}: {message}: run it again"))
         })?;
     }
     Ok(())

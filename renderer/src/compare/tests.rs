@@ -144,6 +144,29 @@ fn frames_and_runs_on_one_side_are_a_difference_and_are_named() {
 }
 
 #[test]
+fn ways_of_assignment_compare_with_each_other_unless_a_set_holds_several() {
+    let root = tempfile::tempdir().unwrap();
+    let by = |set: &str, ways: &[&str]| {
+        for way in ways {
+            let run = root.path().join(set).join(way);
+            Fixture::default().write(run.clone());
+            let text = fs::read_to_string(run.join("run.json")).unwrap();
+            let mut manifest: serde_json::Value = serde_json::from_str(&text).unwrap();
+            manifest["config"]["assign"] = (*way).into();
+            fs::write(run.join("run.json"), manifest.to_string()).unwrap();
+        }
+        root.path().join(set)
+    };
+    let (brute, scatter) = (by("a", &["brute"]), by("b", &["scatter"]));
+    assert_eq!(compare(&brute, &scatter).unwrap().runs.len(), 1);
+    let both = by("c", &["brute", "scatter"]);
+    assert_eq!(compare(&both, &both).unwrap().runs.len(), 2);
+    let halves = compare(&both, &scatter).unwrap();
+    assert_eq!((halves.runs.len(), halves.missing_in_b.len()), (1, 1));
+    assert!(halves.missing_in_b[0].ends_with("assigned by brute"), "{halves}");
+}
+
+#[test]
 fn times_are_ratios_of_minima_and_count_beyond_the_noise_of_the_runs() {
     let compare_times = |runs: &[f64]| {
         let b = Fixture { runs: runs.to_vec(), ..Fixture::default() };
@@ -189,6 +212,12 @@ fn what_cannot_be_compared_is_said_in_one_line() {
         let message = refused(&broken, &good);
         assert!(message.contains(file) && message.contains(expected), "{message}");
     }
+    Fixture::default().write(broken.clone());
+    for (text, expected) in [("", "no frames"), ("frame,time_s,visible_clusters\n0,0", "is damaged")] {
+        fs::write(broken.join("frames.csv"), text).unwrap();
+        assert!(refused(&broken, &good).contains(expected), "{text}");
+    }
+    assert!(refused(&good.join("run/run.json"), &good).contains("is no directory"));
     fs::remove_file(good.join("run/frames.csv")).unwrap();
     assert!(refused(&good, &twice.join("x")).contains("frames.csv"));
 }

@@ -40,6 +40,11 @@ pub struct Grid {
     pub dimensions: [u32; 3],
 }
 
+/// The cell with a linear index in a grid of so many cells a side: the inverse of [`Grid::linear`].
+pub fn cell_at(linear: u32, [dx, dy, _]: [u32; 3]) -> [u32; 3] {
+    [linear % dx, linear / dx % dy, linear / dx / dy]
+}
+
 impl Grid {
     /// Dx*Dy*Dz.
     pub fn cluster_count(&self) -> u64 {
@@ -54,8 +59,7 @@ impl Grid {
 
     /// The cluster with a linear index: the inverse of [`Grid::linear`].
     pub fn cluster_at(&self, linear: u32) -> [u32; 3] {
-        let [dx, dy, _] = self.dimensions;
-        [linear % dx, linear / dx % dy, linear / dx / dy]
+        cell_at(linear, self.dimensions)
     }
 
     /// The cluster that a world point lies in, `None` outside the grid.

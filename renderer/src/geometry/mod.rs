@@ -24,7 +24,7 @@ mod worked_values;
 
 pub use enclosing::{Enclosing, enclosing};
 pub use frustum::Frustum;
-pub use grid::{ClusterSpace, Grid};
+pub use grid::{ClusterSpace, Grid, cell_at};
 pub use plan::plan;
 pub use sphere::{CellTest, Plane, axis_box, half_space};
 pub use sphere_test::{Candidates, SphereTest};

@@ -98,6 +98,8 @@ pub struct ViewPixels {
     pub fragment_count: Vec<u32>,
     /// Linear cluster index; `u32::MAX` where nothing was hit.
     pub cluster_index: Vec<u32>,
+    /// Cells a side of the grid that the index counts in; zeros without clusters.
+    pub dimensions: [u32; 3],
     /// World from view, column-major.
     pub world_from_view: glam::DMat4,
     /// Clip from view (reversed depth), column-major.

@@ -46,9 +46,9 @@ pub fn cubehelix(fraction: f64) -> [u8; 3] {
 }
 
 /// One of three colours that colour-blind readers tell apart (Okabe and Ito 2008: orange, sky blue, bluish green),
-/// by the cluster's linear index modulo 3: neighbours along x differ.
-pub fn cluster_color(index: u32) -> [u8; 3] {
-    [[230, 159, 0], [86, 180, 233], [0, 158, 115]][(index % 3) as usize]
+/// by the sum of the cluster's indices modulo 3: neighbours along every axis differ.
+pub fn cluster_color([x, y, z]: [u32; 3]) -> [u8; 3] {
+    [[230, 159, 0], [86, 180, 233], [0, 158, 115]][((x + y + z) % 3) as usize]
 }
 
 fn to_byte(fraction: f64) -> u8 {
@@ -89,6 +89,12 @@ mod tests {
 
     #[test]
     fn neighbouring_clusters_differ() {
-        assert!((0..30).all(|index| cluster_color(index) != cluster_color(index + 1)));
+        for cell in [[0, 0, 0], [5, 3, 7], [2, 9, 4]] {
+            for axis in 0..3 {
+                let mut next = cell;
+                next[axis] += 1;
+                assert_ne!(cluster_color(cell), cluster_color(next));
+            }
+        }
     }
 }

@@ -9,7 +9,7 @@
 //!   <run>/                 named by method (and lighting, where there are several)
 //!     run.json             how the run came to be
 //!     frames.csv  clusterings.csv  histograms.csv  timings.csv  trace.json
-//!     frames/NNNNNN.exr  NNNNNN.png  NNNNNN_lights.png  NNNNNN_clusters.png
+//!     frames/NNNNNN.exr  NNNNNN.png  NNNNNN_lights.png  NNNNNN_clusters.png  NNNNNN_birdseye.png
 //!   <run>.error.json       why a run failed, until it succeeds
 //! ```
 //!
@@ -40,7 +40,7 @@ pub use manifest::{DeviceInfo, Manifest, RUN_FORMAT, Source, git_revision, rfc33
 pub use preview::write_png;
 pub use preview::{cluster_preview, image_preview, light_preview, write_previews};
 pub use run::{PlannedRun, RunWriter, planned_runs, prepare_output, write_summary};
-pub use saved::{is_complete, saved_fingerprint, saved_means};
+pub use saved::{find_runs, is_complete, saved_fingerprint, saved_means};
 pub(crate) use stages::kind as stage_kind;
 pub use stages::{GpuTimes, StageMinima};
 pub use summary::{MethodRun, Ratios, RunMeans, Summary, SummaryRow, Values};

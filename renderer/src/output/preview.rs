@@ -3,6 +3,7 @@
 use super::atomic::write_whole;
 use super::color::{BACKGROUND, cluster_color, cubehelix, tone_map};
 use crate::Result;
+use crate::geometry::cell_at;
 use crate::measure::ViewPixels;
 use image::{ImageFormat, Rgb, RgbImage};
 use std::io;
@@ -64,11 +65,11 @@ pub fn light_preview(views: &[ViewPixels], most_lights: Option<u32>) -> RgbImage
     })
 }
 
-/// Clusters as colour: the linear index modulo 3, dark where there is none.
+/// Clusters as colour: the sum of their indices modulo 3, dark where there is none.
 pub fn cluster_preview(views: &[ViewPixels]) -> RgbImage {
     side_by_side(views, |view, pixel| match view.cluster_index[pixel] {
         u32::MAX => BACKGROUND,
-        index => cluster_color(index),
+        index => cluster_color(cell_at(index, view.dimensions)),
     })
 }
 
@@ -121,8 +122,8 @@ mod tests {
         assert_eq!(clusters.dimensions(), (6, 2));
         assert_eq!(clusters.get_pixel(0, 0).0, [24, 24, 24]);
         assert_eq!(clusters.get_pixel(3, 0).0, [24, 24, 24]);
-        assert_eq!(clusters.get_pixel(1, 0).0, cluster_color(1));
-        assert_eq!(clusters.get_pixel(3, 1).0, cluster_color(3));
+        assert_eq!(clusters.get_pixel(1, 0).0, cluster_color([1, 0, 0]));
+        assert_eq!(clusters.get_pixel(3, 1).0, cluster_color([1, 1, 0]));
         let [r, g, b, _] = left.color[5].map(|channel| channel.to_f32());
         assert_eq!(read("000300.png").get_pixel(2, 1).0, tone_map([r, g, b]));
         assert_eq!(read("000300_lights.png").dimensions(), (6, 2));

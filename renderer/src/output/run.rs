@@ -3,7 +3,7 @@
 use super::atomic::{StagedDirectory, cannot_write, make_directory, write_whole};
 use super::image_exr::write_exr;
 use super::manifest::Manifest;
-use super::preview::write_previews;
+use super::preview::{write_png, write_previews};
 use super::stages::StageMinima;
 use super::summary::Summary;
 use super::tables;
@@ -12,6 +12,7 @@ use crate::config::{Assign, Case, Config, Lighting, LightsFrom, Test};
 use crate::measure::{FrameCounts, FrameTimes, FrameTrace, ViewPixels};
 use crate::methods::MethodSpec;
 use crate::{Error, Result};
+use image::RgbImage;
 use std::io::Write;
 use std::path::Path;
 
@@ -131,6 +132,14 @@ impl RunWriter {
         let (directory, stem) = (self.staged.path().join("frames"), format!("{frame:06}"));
         write_exr(&directory.join(format!("{stem}.exr")), views)?;
         write_previews(&directory, &stem, views, most_lights)
+    }
+
+    /// Writes a frame's `frames/NNNNNN_birdseye.png`.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_birdseye(&self, frame: u32, image: &RgbImage) -> Result<()> {
+        write_png(&self.staged.path().join("frames").join(format!("{frame:06}_birdseye.png")), image)
     }
 
     /// Writes `trace.json`.

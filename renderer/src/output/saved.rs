@@ -4,7 +4,8 @@ use super::run::MANIFEST;
 use super::summary::Values;
 use crate::{Error, Result};
 use serde::Deserialize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 /// What is asked of a run on disk.
 #[derive(Deserialize)]
@@ -23,6 +24,47 @@ struct FrameRow {
     gpu_ms_frame: Option<f64>,
 }
 
+/// The directories of all runs in or below `directory`, by name. Hidden ones are unfinished, and what stands in a
+/// run's own is not searched.
+///
+/// # Errors
+/// It is missing, is no directory, cannot be read, or holds no run.
+pub fn find_runs(directory: &Path) -> Result<Vec<PathBuf>> {
+    let mut found = vec![];
+    search(directory, &mut found)?;
+    if found.is_empty() {
+        return Err(Error::file(
+            directory,
+            format!("holds no results (no {MANIFEST} below it): give a directory that a replay wrote"),
+        ));
+    }
+    Ok(found)
+}
+
+fn search(directory: &Path, found: &mut Vec<PathBuf>) -> Result<()> {
+    if is_complete(directory) {
+        found.push(directory.to_owned());
+        return Ok(());
+    }
+    let cannot = |error: io::Error| {
+        let problem = match error.kind() {
+            io::ErrorKind::NotFound => "there is no such directory".to_owned(),
+            io::ErrorKind::NotADirectory => "is no directory: give one that a replay wrote".to_owned(),
+            _ => format!("cannot be read: {error}"),
+        };
+        Error::file(directory, problem)
+    };
+    let entries = fs::read_dir(directory).map_err(cannot)?.collect::<io::Result<Vec<_>>>().map_err(cannot)?;
+    let is_inner = |entry: &fs::DirEntry| {
+        entry.file_type().is_ok_and(|kind| kind.is_dir())
+            && !entry.file_name().to_string_lossy().starts_with('.')
+    };
+    let mut inner: Vec<PathBuf> =
+        entries.iter().filter(|entry| is_inner(entry)).map(fs::DirEntry::path).collect();
+    inner.sort();
+    inner.iter().try_for_each(|path| search(path, found))
+}
+
 /// Whether a run stands in `directory`: directories come into their places whole.
 pub fn is_complete(directory: &Path) -> bool {
     directory.join(MANIFEST).is_file()
@@ -30,7 +72,7 @@ pub fn is_complete(directory: &Path) -> bool {
 
 /// The fingerprint of the run in `directory`; `None` where there is none, or one by another version of the format.
 pub fn saved_fingerprint(directory: &Path) -> Option<String> {
-    let text = std::fs::read_to_string(directory.join(MANIFEST)).ok()?;
+    let text = fs::read_to_string(directory.join(MANIFEST)).ok()?;
     serde_json::from_str::<SavedManifest>(&text).ok().map(|manifest| manifest.fingerprint)
 }
 

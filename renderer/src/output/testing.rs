@@ -16,6 +16,7 @@ pub(super) fn view(name: &str, width: u32, height: u32) -> ViewPixels {
         light_count: (0..pixels).map(|i| i * 3).collect(),
         fragment_count: (0..pixels).map(|i| i * 7).collect(),
         cluster_index: (0..pixels).map(|i| if i == 0 { u32::MAX } else { i }).collect(),
+        dimensions: [2, 2, 1],
         world_from_view: glam::DMat4::IDENTITY,
         clip_from_view: glam::DMat4::IDENTITY,
     }

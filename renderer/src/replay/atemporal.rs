@@ -21,7 +21,7 @@ use half::f16;
 /// The slot that atemporal frames use: each is read before the next begins.
 pub const SLOT: usize = 0;
 
-/// Renders and counts one frame; where `view_names` are given, its images go to `sink` too.
+/// Renders and counts one frame; where `view_names` are given, its pixels come too, a view each.
 pub fn count_frame(
     engine: &mut Engine,
     session: &mut Session,
@@ -29,7 +29,7 @@ pub fn count_frame(
     lights: &mut LightSource,
     (time_s, view_names): (f64, Option<&[String]>),
     sink: &mut dyn RunSink,
-) -> Result<FrameCounts> {
+) -> Result<(FrameCounts, Vec<ViewPixels>)> {
     let resolution = engine.resolution();
     let images = image_buffers(session, resolution, view_names.map_or(0, <[String]>::len))?;
     let lights = lights.at_frame(plan.frame);
@@ -49,13 +49,17 @@ pub fn count_frame(
         }
     }
     let counts = read_counts(engine, session, plan, (lights.len() as u32, time_s), sink)?;
-    if let Some(names) = view_names {
-        let views = images.iter().zip(names).zip(&plan.views);
-        let pixels: Vec<ViewPixels> =
-            views.map(|((buffer, name), view)| view_pixels(buffer, name, view, resolution)).collect();
-        sink.images(plan.frame, &pixels)?;
-    }
-    Ok(counts)
+    let views = images.iter().zip(view_names.unwrap_or_default()).zip(plan.views.iter().enumerate());
+    let pixels = views.map(|((buffer, name), (number, view))| ViewPixels {
+        dimensions: grid_of(plan, number),
+        ..view_pixels(buffer, name, view, resolution)
+    });
+    Ok((counts, pixels.collect()))
+}
+
+/// Cells a side of the grid that view `number` looks up; zeros where there is none.
+fn grid_of(plan: &FramePlan, number: usize) -> [u32; 3] {
+    plan.grids.get(number).or(plan.grids.first()).map_or([0; 3], |grid| grid.dimensions)
 }
 
 fn image_buffers(session: &Session, resolution: [u32; 2], count: usize) -> Result<Vec<Buffer>> {
@@ -109,6 +113,7 @@ fn view_pixels(buffer: &Buffer, name: &str, view: &View, resolution: [u32; 2]) -
         light_count: pixels.iter().map(|p| p.light_count).collect(),
         fragment_count: pixels.iter().map(|p| p.fragment_count).collect(),
         cluster_index: pixels.iter().map(|p| p.cluster_index).collect(),
+        dimensions: [0; 3],
         world_from_view: view.world_from_view(),
         clip_from_view: view.clip_from_view(),
     }

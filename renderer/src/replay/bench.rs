@@ -1,6 +1,10 @@
 //! Light assignment alone, timed by every way with every test in one process, in turn: what runs on the machine beside
 //! it slows all alike.
 
+mod scopes;
+
+pub use scopes::{ScopesRow, bench_scopes};
+
 use super::engine::{Engine, Mode};
 use super::plan::{FramePlan, plan_frames};
 use super::session::Session;
@@ -82,7 +86,7 @@ pub fn bench_assign(
             let config = Config { frames: range, ..config.clone() };
             for &method in &config.methods {
                 let plan = &plan_frames(&config, &inputs.recording, &method)?[0];
-                let case = Case { config: &config, method, plan, lights: &lights };
+                let case = Case { config: &config, method, plan, lights: &lights, shaded: false };
                 for row in case.measure(&mut session, bench, watch)? {
                     sink(row)?;
                 }
@@ -98,6 +102,8 @@ struct Case<'a> {
     method: MethodSpec,
     plan: &'a FramePlan,
     lights: &'a [PointLight],
+    /// Whether the frame goes on to shading.
+    shaded: bool,
 }
 
 impl Case<'_> {
@@ -145,7 +151,7 @@ impl Case<'_> {
         let mode = Mode { lights: self.lights.len() as u32, capacities, assigner, test, counting };
         let mut engine =
             Engine::new(session, self.config, self.method, std::slice::from_ref(self.plan), mode)?;
-        engine.shaded = false;
+        engine.shaded = self.shaded;
         loop {
             self.render(session, &mut engine)?;
             if !engine.grow_if_needed(session, SLOT, self.plan.frame)? {

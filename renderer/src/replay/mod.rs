@@ -27,11 +27,14 @@ use crate::config::Config;
 use crate::measure::{
     Capacities, ClusterLists, FrameCounts, FrameTimes, FrameTrace, GrowthEvent, ViewPixels,
 };
+use crate::methods::MethodSpec;
 use crate::output::PlannedRun;
 use crate::recording::Recording;
+use crate::still;
 use crate::vk::DeviceInfo;
 use crate::{Error, Result};
 use engine::{Engine, Mode};
+use image::RgbImage;
 use session::Session;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, SystemTime};
@@ -43,6 +46,10 @@ pub trait RunSink {
     fn begin(&mut self, run: &PlannedRun) -> Result<()>;
     /// Images of one frame of the current run, a view each.
     fn images(&mut self, frame: u32, views: &[ViewPixels]) -> Result<()>;
+    /// The clusters of that frame seen from above; most sinks have no use for them.
+    fn birdseye(&mut self, _frame: u32, _image: &RgbImage) -> Result<()> {
+        Ok(())
+    }
     /// Light lists of one clustering of one frame of the current run; most sinks have no use for them.
     fn lists(&mut self, _lists: ClusterLists) -> Result<()> {
         Ok(())
@@ -181,7 +188,14 @@ fn count(
         watch.check()?;
         let view_names = config.exr.contains(plan.frame).then_some(names.as_slice());
         let about = (inputs.recording.time(plan.frame), view_names);
-        result.counts.push(atemporal::count_frame(&mut engine, session, plan, &mut lights, about, sink)?);
+        let (counts, views) = atemporal::count_frame(&mut engine, session, plan, &mut lights, about, sink)?;
+        result.counts.push(counts);
+        if !views.is_empty() {
+            sink.images(plan.frame, &views)?;
+            if run.method != MethodSpec::AllLights {
+                sink.birdseye(plan.frame, &still::birdseye(config, inputs, session, (run, plan))?)?;
+            }
+        }
         watch.step();
     }
     result.capacities = engine.capacities();

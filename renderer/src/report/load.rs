@@ -4,6 +4,7 @@ mod manifest;
 mod tables;
 
 use super::results::{Picture, ResultSet, Run, is_tuned};
+use crate::output::find_runs;
 use crate::{Error, Result};
 use manifest::RunFile;
 use rayon::prelude::*;
@@ -21,14 +22,7 @@ const MANIFEST: &str = "run.json";
 pub fn load(directories: &[PathBuf]) -> Result<ResultSet> {
     let mut found = vec![];
     for directory in directories {
-        let mut below = vec![];
-        walk(directory, &mut below)?;
-        if below.is_empty() {
-            return Err(Error::file(
-                directory,
-                format!("holds no results (no {MANIFEST} below it): give a directory that a replay wrote"),
-            ));
-        }
+        let below = find_runs(directory)?;
         let root = if directories.len() > 1 { directory.parent().unwrap_or(directory) } else { directory };
         found.extend(below.into_iter().map(|path| (name_below(root, &path), path)));
     }
@@ -48,32 +42,6 @@ fn name_below(root: &Path, path: &Path) -> String {
     let below = path.strip_prefix(root).unwrap_or(path);
     let below = if below.as_os_str().is_empty() { path } else { below };
     below.display().to_string()
-}
-
-/// Collects run directories, by name. Hidden ones are unfinished.
-fn walk(directory: &Path, found: &mut Vec<PathBuf>) -> Result<()> {
-    let cannot = |error: std::io::Error| {
-        let problem = match error.kind() {
-            std::io::ErrorKind::NotFound => "there is no such directory".to_owned(),
-            std::io::ErrorKind::NotADirectory => "is no directory: give one that a replay wrote".to_owned(),
-            _ => format!("cannot be read: {error}"),
-        };
-        Error::file(directory, problem)
-    };
-    if directory.join(MANIFEST).is_file() {
-        found.push(directory.to_owned());
-        return Ok(());
-    }
-    let entries =
-        fs::read_dir(directory).map_err(cannot)?.collect::<std::io::Result<Vec<_>>>().map_err(cannot)?;
-    let is_inner = |entry: &fs::DirEntry| {
-        entry.file_type().is_ok_and(|kind| kind.is_dir())
-            && !entry.file_name().to_string_lossy().starts_with('.')
-    };
-    let mut inner: Vec<PathBuf> =
-        entries.iter().filter(|entry| is_inner(entry)).map(fs::DirEntry::path).collect();
-    inner.sort();
-    inner.iter().try_for_each(|path| walk(path, found))
 }
 
 fn one_version(found: &[(String, PathBuf)], files: &[RunFile]) -> Result<()> {
@@ -111,7 +79,7 @@ fn read_run(name: &str, directory: &Path, file: &RunFile) -> Result<Run> {
     }
     Ok(Run {
         name: name.to_owned(),
-        setting: file.setting(views),
+        setting: file.setting(views, method),
         method,
         lighting: file.lighting(),
         device: file.device(),
@@ -135,8 +103,10 @@ fn pictures(directory: &Path) -> Vec<Picture> {
             let image = entry.path();
             let stem = image.file_name()?.to_str()?.strip_suffix(".png")?;
             let frame = stem.parse().ok()?;
-            let lights = Some(directory.join(format!("{stem}_lights.png"))).filter(|path| path.is_file());
-            Some(Picture { frame, image, lights })
+            let [lights, clusters, birdseye] = ["lights", "clusters", "birdseye"].map(|shown| {
+                Some(directory.join(format!("{stem}_{shown}.png"))).filter(|path| path.is_file())
+            });
+            Some(Picture { frame, image, lights, clusters, birdseye })
         })
         .collect();
     found.sort_by_key(|picture| picture.frame);

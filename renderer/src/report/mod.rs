@@ -5,14 +5,17 @@
 //! ```text
 //! DIR... ──> load ──> ResultSet ──┬─> figures ──> chart (SVG, CSV) ──┐
 //!                                 ├─> claims ────────────────────────┼──> page (index.html)
+//!                                 ├─> tables ────────────────────────┤
 //!                                 └─> stats ─────────────────────────┘
 //! OUT/
 //!   index.html           everything, in one file that opens offline
 //!   claims.json          the claims with the numbers behind them
 //!   runs.csv             statistics of every metric of every run
+//!   indi-encl.csv        Indi against Encl by every way of assignment; tests.csv: tests of light against cluster
 //!   figures/ID.svg .csv  each figure, and the numbers plotted
 //! ```
 
+pub mod assign_bench;
 mod bins;
 mod chart;
 mod claims;
@@ -22,13 +25,15 @@ mod load;
 mod page;
 mod results;
 mod stats;
+mod tables;
+mod way;
 
 #[cfg(test)]
 mod testing;
 #[cfg(test)]
 mod tests;
 
-pub use claims::{Claim, Evidence, Number, Verdict};
+pub use claims::{ByWay, Claim, Evidence, Number, Verdict};
 
 use crate::output::write_whole;
 use crate::{Error, Result};
@@ -68,15 +73,22 @@ pub fn write_report(directories: &[PathBuf], out: Option<&Path>) -> Result<Repor
     let figures = figures::all(&set)?;
     let galleries = figures::galleries(&set)?;
     let claims = claims::check(&set);
+    let tables = tables::all(&set);
     for figure in figures.iter().chain(&galleries) {
         write_figure(&out.join("figures"), figure)?;
+    }
+    for table in &tables {
+        write_whole(&out.join(format!("{}.csv", table.id)), |file| table.write_csv(file))?;
     }
     write_whole(&out.join("runs.csv"), |file| page::write_runs_csv(file, &set))?;
     let json = serde_json::to_string_pretty(&claims)
         .map_err(|error| Error::Internal(format!("the claims are not JSON: {error}")))?;
     write_whole(&out.join("claims.json"), |file| writeln!(file, "{json}"))?;
     let page = out.join("index.html");
-    let html = page::html(&set, &figures, &galleries, &claims);
+    let html = page::html(
+        &set,
+        &page::Content { figures: &figures, galleries: &galleries, claims: &claims, tables: &tables },
+    );
     write_whole(&page, |file| file.write_all(html.as_bytes()))?;
     let ids = |drawn: bool| {
         figures

@@ -1,5 +1,6 @@
 //! What result directories hold, as types that figures and claims ask.
 
+use super::way::Way;
 use crate::methods::{MethodSpec, Sharing, Space};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -56,6 +57,8 @@ pub struct Setting {
     pub options: Vec<String>,
     /// Hexadecimal SHA-256 of scene and recording.
     pub hashes: [String; 2],
+    /// How light lists were built.
+    pub way: Way,
 }
 
 /// Where a run's light came from.
@@ -125,6 +128,10 @@ pub struct Picture {
     pub image: PathBuf,
     /// Lights per cluster as colour.
     pub lights: Option<PathBuf>,
+    /// Clusters as colour.
+    pub clusters: Option<PathBuf>,
+    /// The same seen from above, with frusta.
+    pub birdseye: Option<PathBuf>,
 }
 
 impl ResultSet {
@@ -134,6 +141,27 @@ impl ResultSet {
         settings.sort();
         settings.dedup();
         settings
+    }
+
+    /// Distinct settings, ascending, each with one way alone: for what is the same by all ways.
+    pub fn settings_once(&self) -> Vec<&Setting> {
+        let mut settings = self.settings();
+        settings.dedup_by_key(|setting| setting.by(&Way::default()));
+        settings
+    }
+
+    /// Distinct ways by which light lists were built, the thesis's own first.
+    pub fn ways(&self) -> Vec<&Way> {
+        let mut ways: Vec<&Way> = self.runs.iter().map(|run| &run.setting.way).collect();
+        ways.sort();
+        ways.dedup();
+        ways
+    }
+
+    /// The runs of one way alone.
+    pub fn by_way(&self, way: &Way) -> Self {
+        let runs = self.runs.iter().filter(|run| run.setting.way == *way).cloned().collect();
+        Self { runs, version: self.version.clone(), git_revision: self.git_revision.clone() }
     }
 
     /// The runs of a setting.
@@ -156,6 +184,11 @@ pub fn lightings<'a>(runs: impl IntoIterator<Item = &'a Run>) -> Vec<LightingNam
 }
 
 impl Setting {
+    /// The same setting by another way.
+    pub fn by(&self, way: &Way) -> Self {
+        Self { way: way.clone(), ..self.clone() }
+    }
+
     /// Whether a frame is seen by two cameras or more.
     pub fn is_stereo(&self) -> bool {
         self.views > 1
@@ -191,7 +224,8 @@ impl std::fmt::Display for Setting {
         if self.msaa > 1 {
             write!(f, ", {} samples a pixel", self.msaa)?;
         }
-        self.options.iter().try_for_each(|option| write!(f, ", {option}"))
+        self.options.iter().try_for_each(|option| write!(f, ", {option}"))?;
+        if self.way == Way::default() { Ok(()) } else { write!(f, ", lights assigned by {}", self.way) }
     }
 }
 

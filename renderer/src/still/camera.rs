@@ -37,9 +37,9 @@ impl Camera {
     }
 
     /// Its name, given those of the views.
-    pub fn name(self, views: &[&str]) -> String {
+    pub fn name(self, views: &[String]) -> String {
         match self {
-            Self::View(view) => views[view].to_owned(),
+            Self::View(view) => views[view].clone(),
             Self::BirdsEye => BIRDSEYE.to_owned(),
         }
     }
@@ -135,7 +135,7 @@ mod tests {
     fn cameras_are_found_by_name() {
         let find = |name| Camera::by_name(name, &["left", "right"]);
         assert_eq!(find(Some("right")).unwrap(), Camera::View(1));
-        assert_eq!(find(None).unwrap().name(&["left", "right"]), "left");
+        assert_eq!(find(None).unwrap().name(&["left".into(), "right".into()]), "left");
         assert_eq!(find(Some("birdseye")).unwrap(), Camera::BirdsEye);
         assert!(find(Some("mono")).unwrap_err().to_string().contains("left, right"));
     }

@@ -130,9 +130,8 @@ fn surface(
         (Base::Picture, None) => Surface::Plain([r, g, b]),
         _ if missing => Surface::Plain([DIMMED * light * light; 3]),
         (Base::Clusters, _) => {
-            // Neighbours along every axis differ.
             let cell = grids[pixel.clustering].cluster_at(pixel.cluster_index);
-            Surface::Plain(decoded(cluster_color(cell.into_iter().sum())).map(|c| c * light))
+            Surface::Plain(decoded(cluster_color(cell)).map(|c| c * light))
         }
         (Base::LightCount | Base::FragmentCount, _) => {
             let fraction = f64::from(show.base.count(pixel)) / f64::from(most);

@@ -11,32 +11,24 @@
 
 pub mod camera;
 mod compose;
+mod onlooker;
 mod record;
 mod shapes;
 
 use crate::assign::Assigner;
-use crate::clustering::view_data;
 use crate::config::{Config, Culling};
-use crate::gpu_interface::PixelData;
 use crate::measure::{Capacities, FrameCounts, ViewPixels};
 use crate::methods::MethodSpec;
 use crate::output::PlannedRun;
-use crate::passes::pixel_maps;
-use crate::pipelines::DebugPipelines;
-use crate::replay::atemporal::{self, SLOT};
-use crate::replay::engine::{self, Engine};
+use crate::replay::atemporal;
+use crate::replay::engine::{Engine, Mode};
 use crate::replay::session::Session;
 use crate::replay::{FramePlan, Inputs, RunResult, RunSink, plan_frames};
-use crate::views::View;
-use crate::vk::{Buffer, Memory};
 use crate::{Error, Result};
-use ash::vk;
 use camera::Camera;
 use clap::ValueEnum;
-use compose::Layers;
-use half::f16;
 use image::RgbImage;
-use record::{Drawing, Outputs};
+use onlooker::{Onlooker, Seen};
 
 /// One thing that a still can show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -152,15 +144,15 @@ pub fn render(
     show: &Show,
 ) -> Result<Still> {
     show.check(&run.method)?;
-    // What is seen is the same wherever it is culled and however it is drawn, and a camera of the still's own needs a list
-    // and a pass of its own.
-    let config = &Config { culling: Culling::Cpu, multiview: false, ..config.clone() };
+    let config = &drawn_plainly(config);
     let plans = plan_frames(config, &inputs.recording, &run.method)?;
     let plan = &plans[0];
     let names = inputs.recording.view_names();
     let camera = Camera::by_name(view, &names)?;
     let mut session = Session::new(config, &inputs.scene, names.len())?;
-    let still = Painter { config, inputs, plan, camera, show }.paint(&mut session, run)?;
+    let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
+    let onlooker = Onlooker { config, names: &names, plan, camera, show: *show };
+    let still = paint(&onlooker, inputs, &mut session, run)?;
     session.context.check_validation()?;
     let log = session.context.validation_log();
     drop(session);
@@ -168,154 +160,62 @@ pub fn render(
     Ok(still)
 }
 
-struct Painter<'a> {
-    config: &'a Config,
-    inputs: &'a Inputs,
-    plan: &'a FramePlan,
-    camera: Camera,
-    show: &'a Show,
+/// What is seen is the same wherever it is culled and however it is drawn, and a camera of the still's own needs a list
+/// and a pass of its own.
+fn drawn_plainly(config: &Config) -> Config {
+    Config { culling: Culling::Cpu, multiview: false, ..config.clone() }
 }
 
-impl Painter<'_> {
-    fn paint(self, session: &mut Session, run: &PlannedRun) -> Result<Still> {
-        let mut lights = self.inputs.light_source(&run.lights)?;
-        let light_count = lights.at_frame(self.plan.frame).len() as u32;
-        let capacities = Capacities {
-            visible_clusters: self.config.visible_cluster_capacity,
-            light_indices: self.config.light_index_capacity,
-        };
-        let plans = std::slice::from_ref(self.plan);
-        // The picture is of the lists, which are the same however they are built.
-        let mode = engine::Mode {
-            lights: light_count,
-            capacities,
-            assigner: Assigner::Brute,
-            test: run.test.of(&run.method),
-            counting: true,
-        };
-        let mut engine = Engine::new(session, self.config, run.method, plans, mode)?;
-        let pipelines = session.store.debug(&engine::variant(self.config, run.method, &mode))?;
-        let names: Vec<String> = self.inputs.recording.view_names().into_iter().map(str::to_owned).collect();
-        let mut shaded = Shaded::default();
-        let time = self.inputs.recording.time(self.plan.frame);
-        let about = (time, Some(names.as_slice()));
-        let counts =
-            atemporal::count_frame(&mut engine, session, self.plan, &mut lights, about, &mut shaded)?;
-        let eye = self.eye(&shaded)?;
-        let layers = self.look(&mut engine, session, (&pipelines, &eye), shaded)?;
-        let empty = self.empty_pixels(&eye);
-        let (image, pixels) = compose::compose(self.show, &layers, &self.plan.grids, empty);
-        Ok(Still { view: pixels.name.clone(), image, pixels, counts })
-    }
-
-    /// Where the camera is.
-    fn eye(&self, shaded: &Shaded) -> Result<View> {
-        let views = &self.plan.views;
-        match self.camera {
-            Camera::View(view) => Ok(views[view]),
-            Camera::BirdsEye => {
-                let far = views.iter().map(|view| view.frustum.far()).fold(0.0, f64::max);
-                let distances = shaded.views.iter().flat_map(|view| view.depth.iter().copied());
-                camera::birdseye(views, self.config.resolution, camera::reach(far, distances))
-            }
-        }
-    }
-
-    /// Draws what the camera sees. The frame has ended: what its views were is overwritten for an onlooker.
-    fn look(
-        &self,
-        engine: &mut Engine,
-        session: &mut Session,
-        (pipelines, eye): (&DebugPipelines, &View),
-        mut shaded: Shaded,
-    ) -> Result<Layers> {
-        let clustered = !self.plan.grids.is_empty();
-        let all: Vec<usize> = (0..self.plan.grids.len().max(1)).collect();
-        let (view, lookup, clusterings) = match self.camera {
-            Camera::View(view) => (view, 0, vec![if all.len() > 1 { view } else { 0 }]),
-            Camera::BirdsEye => {
-                let slot = &mut session.slots[SLOT];
-                slot.views.write(0, &[view_data(eye, None, self.config.resolution, session.reach)]);
-                slot.draw_lists[0].update(&session.batches, std::slice::from_ref(eye));
-                (0, 1, all)
-            }
-        };
-        let lines =
-            if self.show.frusta { shapes::frusta(&self.plan.views, &self.plan.grids) } else { vec![] };
-        let line_buffer = (!lines.is_empty())
-            .then(|| {
-                Buffer::with_data(&session.context, "lines", vk::BufferUsageFlags::VERTEX_BUFFER, &lines)
-            })
-            .transpose()?;
-        let [color_bytes, pixel_bytes] = pixel_maps::view_bytes(self.config.resolution);
-        let readback = |size| {
-            let usage = vk::BufferUsageFlags::TRANSFER_DST;
-            Buffer::new(&session.context, "still readback", size, usage, Memory::Readback)
-        };
-        let (clay, overlay) = (readback(color_bytes)?, readback(color_bytes)?);
-        let known: Vec<Buffer> = clusterings.iter().map(|_| readback(pixel_bytes)).collect::<Result<_>>()?;
-        let drawing = Drawing {
-            pipelines,
-            view,
-            lookup: clustered.then_some(lookup),
-            clusterings,
-            lines: line_buffer.as_ref().map(|buffer| (buffer, lines.len() as u32)),
-            spheres: self.show.lights,
-        };
-        let outputs = Outputs { clay: &clay, overlay: &overlay, clusterings: &known };
-        engine.follow_up(session, SLOT, |r, frame| record::record(r, frame, &drawing, &outputs))?;
-        let pixels = self.pixel_count();
-        let color = |buffer: &Buffer| {
-            buffer.read::<[u16; 4]>(0, pixels).into_iter().map(|t| t.map(f16::from_bits)).collect()
-        };
-        let mut clusterings: Vec<Vec<PixelData>> =
-            known.iter().map(|buffer| buffer.read(0, pixels)).collect();
-        let distance = clusterings[0].iter().map(|pixel| pixel.distance).collect();
-        if !clustered {
-            clusterings.clear();
-        }
-        let shaded = match self.camera {
-            Camera::View(view) => Some(shaded.views.swap_remove(view).color),
-            Camera::BirdsEye => None,
-        };
-        Ok(Layers { shaded, clay: color(&clay), overlay: color(&overlay), clusterings, distance })
-    }
-
-    fn pixel_count(&self) -> usize {
-        self.config.resolution.map(|side| side as usize).into_iter().product()
-    }
-
-    /// The camera's name, size and matrices.
-    fn empty_pixels(&self, eye: &View) -> ViewPixels {
-        let [width, height] = self.config.resolution;
-        ViewPixels {
-            name: self.camera.name(&self.inputs.recording.view_names()),
-            width,
-            height,
-            color: vec![],
-            depth: vec![],
-            light_count: vec![],
-            fragment_count: vec![],
-            cluster_index: vec![],
-            world_from_view: eye.world_from_view(),
-            clip_from_view: eye.clip_from_view(),
-        }
-    }
+/// Renders the frame of `plan` once more, apart from its run, and looks at clusters and frusta from above (Gelderen
+/// figure 4.8).
+///
+/// # Errors
+/// Whatever fails on the device.
+pub(crate) fn birdseye(
+    config: &Config,
+    inputs: &Inputs,
+    session: &mut Session,
+    (run, plan): (&PlannedRun, &FramePlan),
+) -> Result<RgbImage> {
+    let config = &drawn_plainly(config);
+    let names: Vec<String> = inputs.recording.view_names().into_iter().map(str::to_owned).collect();
+    let onlooker = Onlooker::birdseye(config, &names, plan);
+    Ok(paint(&onlooker, inputs, session, run)?.image)
 }
 
-/// Keeps the views as the method shaded them.
-#[derive(Default)]
-struct Shaded {
-    views: Vec<ViewPixels>,
+fn paint(onlooker: &Onlooker, inputs: &Inputs, session: &mut Session, run: &PlannedRun) -> Result<Still> {
+    let Onlooker { config, names, plan, .. } = *onlooker;
+    let mut lights = inputs.light_source(&run.lights)?;
+    let light_count = lights.at_frame(plan.frame).len() as u32;
+    let capacities = Capacities {
+        visible_clusters: config.visible_cluster_capacity,
+        light_indices: config.light_index_capacity,
+    };
+    // The picture is of the lists, which are the same however they are built.
+    let mode = Mode {
+        lights: light_count,
+        capacities,
+        assigner: Assigner::Brute,
+        test: run.test.of(&run.method),
+        counting: true,
+    };
+    let mut engine = Engine::new(session, config, run.method, std::slice::from_ref(plan), mode)?;
+    let about = (inputs.recording.time(plan.frame), Some(names));
+    let (counts, views) =
+        atemporal::count_frame(&mut engine, session, plan, &mut lights, about, &mut NoLists)?;
+    let Seen { image, pixels } = onlooker.look(session, &mut engine, &mode, views)?;
+    Ok(Still { view: pixels.name.clone(), image, pixels, counts })
 }
 
-impl RunSink for Shaded {
+/// A still has no use for the lists.
+struct NoLists;
+
+impl RunSink for NoLists {
     fn begin(&mut self, _: &PlannedRun) -> Result<()> {
         Ok(())
     }
 
-    fn images(&mut self, _: u32, views: &[ViewPixels]) -> Result<()> {
-        self.views = views.to_vec();
+    fn images(&mut self, _: u32, _: &[ViewPixels]) -> Result<()> {
         Ok(())
     }
 

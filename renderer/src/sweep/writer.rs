@@ -8,6 +8,7 @@ use crate::output::{
 };
 use crate::replay::{Inputs, RunResult, RunSink};
 use crate::{Error, Result};
+use image::RgbImage;
 
 /// One run's files. An error of the sink's own (a full disk, say) is not the run's: `broken` tells them apart.
 pub(super) struct Files<'a> {
@@ -70,6 +71,12 @@ impl RunSink for Files<'_> {
     fn images(&mut self, frame: u32, views: &[ViewPixels]) -> Result<()> {
         let writer = self.writer.as_ref().ok_or_else(not_begun)?;
         let written = writer.write_images(frame, views, None);
+        self.noted(written)
+    }
+
+    fn birdseye(&mut self, frame: u32, image: &RgbImage) -> Result<()> {
+        let writer = self.writer.as_ref().ok_or_else(not_begun)?;
+        let written = writer.write_birdseye(frame, image);
         self.noted(written)
     }
 

@@ -3,7 +3,7 @@
 use super::layout::Layout;
 use super::marks;
 use super::palette::{self, VIRIDIS, hex, logarithmic};
-use super::scale::{Scale, nice_top, ticks};
+use super::scale::{Scale, decades, nice_top, ticks};
 use super::svg::{Anchor, Svg, place};
 use super::{Chart, Heat, Picture, Plot};
 use crate::report::bins;
@@ -113,6 +113,7 @@ impl Chart {
             Plot::Lines(series) => {
                 y_axis(svg, axes.y, frame);
                 marks::lines(svg, series, axes.x, axes.y);
+                self.draw_notes(svg, row * self.columns.len() + column, frame);
             }
             Plot::Stack(stack) => {
                 marks::stack(svg, &stack.parts, axes.x, axes.y);
@@ -124,8 +125,28 @@ impl Chart {
         svg.close("g");
     }
 
+    /// Frame numbers are not shortened: 1500, not 1.5k.
+    fn x_tick(&self, value: f64) -> String {
+        if value.fract() == 0.0 && !self.logarithmic { format!("{value:.0}") } else { short(value) }
+    }
+
+    fn draw_notes(&self, svg: &mut Svg, panel: usize, [left, top, ..]: [f64; 4]) {
+        for (line, note) in self.notes.get(panel).into_iter().flatten().enumerate() {
+            let at = [left + 8.0, top + 15.0 + 13.0 * line as f64];
+            svg.label(at, Anchor::Start, &format!("f-{}", note.look.color), &note.label);
+        }
+    }
+
     /// The axes of a panel that is no picture, in `frame` (left, top, width, height).
     pub(super) fn axes(&self, plot: &Plot, [left, top, width, height]: [f64; 4]) -> Axes {
+        if let (true, Plot::Lines(series)) = (self.logarithmic, plot) {
+            let y = ends(series.iter().flat_map(|s| s.points.iter().map(|p| p[1])), 0.0);
+            return Axes {
+                x: Scale { logarithmic: true, domain: self.x_domain(), range: [left, left + width] },
+                // Remarks stand above the lines.
+                y: Scale { logarithmic: true, domain: [y[0] / 2.0, y[1] * 8.0], range: [top + height, top] },
+            };
+        }
         let most = match plot {
             Plot::Lines(series) => {
                 nice_top(series.iter().flat_map(|s| &s.points).map(|p| p[1]).fold(0.0, f64::max), Y_TICKS)
@@ -135,8 +156,8 @@ impl Chart {
             Plot::Picture(_) => 1.0,
         };
         Axes {
-            x: Scale { domain: self.x_domain(), range: [left, left + width] },
-            y: Scale { domain: [0.0, most], range: [top + height, top] },
+            x: Scale { logarithmic: false, domain: self.x_domain(), range: [left, left + width] },
+            y: Scale { logarithmic: false, domain: [0.0, most], range: [top + height, top] },
         }
     }
 
@@ -153,7 +174,7 @@ impl Chart {
         if low < high {
             [low, high]
         } else if low == high {
-            [low - 1.0, high + 1.0]
+            if self.logarithmic { [low / 2.0, high * 2.0] } else { [low - 1.0, high + 1.0] }
         } else {
             [0.0, 1.0]
         }
@@ -161,11 +182,11 @@ impl Chart {
 
     fn x_axis(&self, svg: &mut Svg, x: Scale, [left, top, width, height]: [f64; 4], is_last: bool) {
         let bottom = top + height;
-        for tick in ticks(x.domain[0], x.domain[1], (width / TICK_ROOM) as usize) {
+        for tick in axis_ticks(x, (width / TICK_ROOM) as usize) {
             let at = x.at(tick);
             svg.path("grid", &format!("M{} {}V{}", place(at), place(top), place(bottom)));
             if is_last {
-                svg.label([at, bottom + 15.0], Anchor::Middle, "tick", &plain_tick(tick));
+                svg.label([at, bottom + 15.0], Anchor::Middle, "tick", &self.x_tick(tick));
             }
         }
         svg.path("axis", &format!("M{} {}H{}", place(left), place(bottom), place(left + width)));
@@ -177,11 +198,6 @@ impl Chart {
 
 fn heat_of(plot: &Plot) -> Option<&Heat> {
     if let Plot::Heat(heat) = plot { Some(heat) } else { None }
-}
-
-/// Frame numbers are not shortened: 1500, not 1.5k.
-fn plain_tick(value: f64) -> String {
-    if value.fract() == 0.0 { format!("{value:.0}") } else { short(value) }
 }
 
 fn ends(values: impl Iterator<Item = f64>, room: f64) -> [f64; 2] {
@@ -198,8 +214,12 @@ pub fn half_step(x: &[f64]) -> f64 {
     }
 }
 
+fn axis_ticks(Scale { logarithmic, domain: [low, high], .. }: Scale, wanted: usize) -> Vec<f64> {
+    if logarithmic { decades(low, high) } else { ticks(low, high, wanted) }
+}
+
 fn y_axis(svg: &mut Svg, y: Scale, [left, _, width, _]: [f64; 4]) {
-    for tick in ticks(y.domain[0], y.domain[1], Y_TICKS) {
+    for tick in axis_ticks(y, Y_TICKS) {
         let at = y.at(tick);
         if tick > 0.0 {
             svg.path("grid", &format!("M{} {}h{}", place(left), place(at), place(width)));

@@ -73,11 +73,19 @@ impl Layout {
 }
 
 fn panel_height(chart: &Chart, width: f64) -> f64 {
+    let pictures = chart.panels.iter().flatten().filter_map(|plot| match plot {
+        Plot::Picture(picture) => {
+            Some(width * f64::from(picture.size[1]) / f64::from(picture.size[0].max(1)))
+        }
+        _ => None,
+    });
+    // Slender pictures are shown as high as the broad ones beside them.
+    let lowest = pictures.fold(f64::INFINITY, f64::min);
     let tallest = chart.panels.iter().flatten().map(|plot| match plot {
-        Plot::Picture(picture) => width * f64::from(picture.size[1]) / f64::from(picture.size[0].max(1)),
+        Plot::Picture(_) => lowest,
         Plot::Heat(_) => 190.0,
         Plot::Stack(_) => 140.0,
-        Plot::Lines(_) if chart.rows.len() == 1 => 300.0,
+        Plot::Lines(_) if chart.logarithmic || chart.rows.len() == 1 => 300.0,
         Plot::Lines(_) => 124.0,
     });
     tallest.fold(20.0, f64::max)

@@ -28,6 +28,10 @@ pub struct Chart {
     pub x_label: String,
     /// Colours explained above.
     pub legend: Vec<Key>,
+    /// Whether the axes of lines are logarithmic; their numbers are above 0 then.
+    pub logarithmic: bool,
+    /// Remarks in the corner of each panel, in the colours of the lines they are about; empty for none.
+    pub notes: Vec<Vec<Key>>,
 }
 
 /// An entry of the legend.

@@ -1,8 +1,10 @@
 //! Axes: from numbers to places, and where ticks are.
 
-/// A linear axis.
+/// An axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scale {
+    /// Whether equal ratios are equally far apart, rather than equal differences; numbers are above 0 then.
+    pub logarithmic: bool,
     /// Numbers at its ends.
     pub domain: [f64; 2],
     /// Places of its ends.
@@ -12,7 +14,8 @@ pub struct Scale {
 impl Scale {
     /// The place of a number.
     pub fn at(&self, value: f64) -> f64 {
-        let ([d0, d1], [r0, r1]) = (self.domain, self.range);
+        let scaled = |value: f64| if self.logarithmic { value.ln() } else { value };
+        let ([d0, d1], [r0, r1], value) = (self.domain.map(scaled), self.range, scaled(value));
         if d1 == d0 { (r0 + r1) / 2.0 } else { r0 + (value - d0) / (d1 - d0) * (r1 - r0) }
     }
 }
@@ -26,6 +29,18 @@ pub fn ticks(low: f64, high: f64, wanted: usize) -> Vec<f64> {
     let slack = step * 1e-9;
     let (first, last) = (((low - slack) / step).ceil() as i64, ((high + slack) / step).floor() as i64);
     (first..=last).map(|k| k as f64 * step).collect()
+}
+
+/// Powers of ten within low..=high; where fewer than three fit, 2 and 5 times them too.
+pub fn decades(low: f64, high: f64) -> Vec<f64> {
+    let (first, last) = (low.log10().floor() as i32, high.log10().ceil() as i32);
+    let within = |factors: &[f64]| -> Vec<f64> {
+        let all =
+            (first..=last).flat_map(|power| factors.iter().map(move |factor| factor * 10_f64.powi(power)));
+        all.filter(|tick| (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(tick)).collect()
+    };
+    let powers = within(&[1.0]);
+    if powers.len() < 3 { within(&[1.0, 2.0, 5.0]) } else { powers }
 }
 
 /// The end of an axis from 0 that holds `most`: the next tick, or a little room.
@@ -58,10 +73,19 @@ mod tests {
     }
 
     #[test]
+    fn ticks_of_ratios_are_powers_of_ten() {
+        assert_eq!(decades(800.0, 2e5), [1e3, 1e4, 1e5]);
+        assert_eq!(decades(3.0, 60.0), [5.0, 10.0, 20.0, 50.0]);
+    }
+
+    #[test]
     fn places_are_linear() {
-        let scale = Scale { domain: [0.0, 4.0], range: [100.0, 20.0] };
+        let linear = |domain, range| Scale { logarithmic: false, domain, range };
+        let scale = linear([0.0, 4.0], [100.0, 20.0]);
         assert_eq!([0.0, 1.0, 4.0].map(|value| scale.at(value)), [100.0, 80.0, 20.0]);
-        assert_eq!(Scale { domain: [3.0, 3.0], range: [0.0, 10.0] }.at(3.0), 5.0);
+        assert_eq!(linear([3.0, 3.0], [0.0, 10.0]).at(3.0), 5.0);
+        let logarithmic = Scale { logarithmic: true, domain: [1.0, 1e4], range: [0.0, 8.0] };
+        assert!((logarithmic.at(100.0) - 4.0).abs() < 1e-12);
     }
 
     proptest! {

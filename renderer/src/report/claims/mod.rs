@@ -2,6 +2,8 @@
 //!
 //! A claim is a handful of comparisons, each with the numbers behind it. It holds where every comparison that could be
 //! made holds and all it needs were made; it does not hold where one fails. Criteria are fixed here, before any data.
+//! Runs by different ways of assignment are never compared with each other: the verdict is of the thesis's own way, or
+//! else the first there is, and claims that others bear on have theirs beside it.
 
 mod far;
 mod limits;
@@ -12,6 +14,7 @@ mod tests;
 
 use super::results::{ResultSet, Run};
 use super::stats;
+use super::way::Way;
 use serde::Serialize;
 
 /// What the data say of a claim.
@@ -37,6 +40,23 @@ pub struct Claim {
     pub claim: &'static str,
     /// When it counts as holding.
     pub criterion: &'static str,
+    /// What the data say.
+    pub verdict: Verdict,
+    /// The comparisons made.
+    pub evidence: Vec<Evidence>,
+    /// Runs that would be needed and are not there.
+    pub missing: Vec<String>,
+    /// How light lists were built in what it was judged by.
+    pub way: String,
+    /// The same by other ways.
+    pub other_ways: Vec<ByWay>,
+}
+
+/// What one further way of assignment says of a claim.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ByWay {
+    /// How light lists were built.
+    pub way: String,
     /// What the data say.
     pub verdict: Verdict,
     /// The comparisons made.
@@ -163,13 +183,28 @@ const CLAIMS: [Checked; 8] = [
 
 /// Checks every claim.
 pub fn check(set: &ResultSet) -> Vec<Claim> {
-    let checked = |(number, claim, criterion, find): Checked| {
+    let mut sets: Vec<(Way, ResultSet)> =
+        set.ways().into_iter().map(|way| (way.clone(), set.by_way(way))).collect();
+    if sets.is_empty() {
+        sets.push(Default::default());
+    }
+    CLAIMS.into_iter().map(|checked| check_one(checked, &sets)).collect()
+}
+
+/// Claims that ways of assignment bear on: those of stereo, and of growth.
+const OF_WAYS: [u32; 4] = [1, 2, 3, 8];
+
+fn check_one((number, claim, criterion, find): Checked, sets: &[(Way, ResultSet)]) -> Claim {
+    let by_way = |(way, set): &(Way, ResultSet)| {
         let findings = find(set);
         let verdict = findings.verdict();
         let Findings { evidence, missing } = findings;
-        Claim { number, claim, criterion, verdict, evidence, missing }
+        ByWay { way: way.to_string(), verdict, evidence, missing }
     };
-    CLAIMS.into_iter().map(checked).collect()
+    let ByWay { way, verdict, evidence, missing } = by_way(&sets[0]);
+    let others = sets[1..].iter().filter(|_| OF_WAYS.contains(&number)).map(by_way);
+    let other_ways = others.filter(|found| !found.evidence.is_empty()).collect();
+    Claim { number, claim, criterion, verdict, evidence, missing, way, other_ways }
 }
 
 impl std::fmt::Display for Verdict {

@@ -134,3 +134,24 @@ fn growth_is_an_exponent() {
     assert_eq!(verdict(8, runs(0.5)), Verdict::DoesNotHold);
     assert_eq!(verdict(8, runs(1.0)[..1].to_vec()), Verdict::NotEnoughData);
 }
+
+#[test]
+fn ways_of_assignment_are_judged_apart() {
+    use crate::report::way::Way;
+    let by = |assign: &str, indi: f64| {
+        let mut runs = [
+            flat("indi-ortho-4", 2, 1000, metric::VISIBLE, indi),
+            flat("encl-ortho-4", 2, 1000, metric::VISIBLE, 50.0),
+        ];
+        for run in &mut runs {
+            run.setting.way = Way::new(Some(assign.into()), None, run.method);
+        }
+        runs
+    };
+    let first = claim(1, [by("scatter", 60.0), by("brute", 100.0)].concat());
+    assert_eq!((first.verdict, first.way.as_str(), first.evidence.len()), (Verdict::Holds, "brute force", 1));
+    let others: Vec<_> = first.other_ways.iter().map(|other| (other.way.as_str(), other.verdict)).collect();
+    assert_eq!(others, [("scatter", Verdict::DoesNotHold)]);
+    let alone = claim(1, by("scatter", 60.0).to_vec());
+    assert_eq!((alone.verdict, alone.way.as_str()), (Verdict::DoesNotHold, "scatter"));
+}

@@ -37,6 +37,7 @@ pub fn figure() -> Figure {
         x_label: "distance from the light (m)".into(),
         legend: series.iter().map(|s| Key { label: s.name.clone(), look: s.look }).collect(),
         panels: vec![Some(Plot::Lines(series))],
+        ..Chart::default()
     };
     Figure {
         id: "A.1".into(),

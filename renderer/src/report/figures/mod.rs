@@ -1,6 +1,7 @@
 //! The figures of the thesis (Gelderen chapter 6, appendices A and C), each from whatever data there are.
 
 mod attenuation;
+mod birdseye;
 mod breakdown;
 mod distribution;
 mod over_time;
@@ -51,7 +52,8 @@ struct Drawn<'a> {
 pub fn all(set: &ResultSet) -> Result<Vec<Figure>> {
     let street = Scene { set, sun_temple: false };
     let temple = Scene { set, sun_temple: true };
-    let mut figures = street.pictures("6.1", "Frames of the replay", &[300, 580])?;
+    let mut figures = street.clusters("4.8", &[300, 580])?;
+    figures.extend(street.pictures("6.1", "Frames of the replay", &[300, 580])?);
     figures.extend(street.sweeps(&[(Sweep::Persp, "6.2"), (Sweep::Ortho, "6.3"), (Sweep::Displ, "6.4")]));
     figures.extend(street.comparisons(["6.5", "6.6", "6.7", "6.8", "6.9", "6.10"]));
     figures.push(attenuation::figure());
@@ -59,7 +61,8 @@ pub fn all(set: &ResultSet) -> Result<Vec<Figure>> {
     figures.extend(temple.pictures("C.2", "A later frame of the Sun Temple replay", &[680])?);
     figures.extend(temple.sweeps(&[(Sweep::Ortho, "C.3"), (Sweep::Persp, "C.4")]));
     // The thesis prints no more of this scene; what was measured beyond is drawn like its counterparts.
-    let mut further = temple.sweeps(&[(Sweep::Displ, "C-6.4")]);
+    let mut further = temple.clusters("C-4.8", &[250, 680])?;
+    further.extend(temple.sweeps(&[(Sweep::Displ, "C-6.4")]));
     further.extend(temple.comparisons(["C-6.5", "C-6.6", "C-6.7", "C-6.8", "C-6.9", "C-6.10"]));
     figures.extend(further.into_iter().filter(|figure| figure.chart.is_some()));
     Ok(figures)
@@ -73,9 +76,24 @@ struct Scene<'a> {
 
 impl<'a> Scene<'a> {
     fn settings(&self, stereo: bool) -> Vec<&'a Setting> {
+        self.own(self.set.settings(), stereo)
+    }
+
+    fn own(&self, settings: Vec<&'a Setting>, stereo: bool) -> Vec<&'a Setting> {
         let belongs =
             |setting: &&Setting| setting.is_sun_temple() == self.sun_temple && setting.is_stereo() == stereo;
-        self.set.settings().into_iter().filter(belongs).collect()
+        settings.into_iter().filter(belongs).collect()
+    }
+
+    fn clusters(&self, id: &str, frames: &[u32]) -> Result<Vec<Figure>> {
+        let mut drawn = vec![];
+        for setting in [false, true].into_iter().flat_map(|stereo| self.own(self.set.settings_once(), stereo))
+        {
+            if let Some(chart) = birdseye::clusters(self.set, setting, frames)? {
+                drawn.push(Drawn { setting, chart, remark: String::new() });
+            }
+        }
+        Ok(figures(&CLUSTERS.at(id), drawn))
     }
 
     /// One figure a mono setting that has data for it; of stereo settings where none has.
@@ -138,7 +156,7 @@ impl<'a> Scene<'a> {
         };
         for stereo in [false, true] {
             let mut drawn = vec![];
-            for setting in self.settings(stereo) {
+            for setting in self.own(self.set.settings_once(), stereo) {
                 if let Some((chart, remark)) = pictures::frames(self.set, setting, frames)? {
                     drawn.push(Drawn { setting, chart, remark });
                 }
@@ -150,6 +168,13 @@ impl<'a> Scene<'a> {
         Ok(figures(&wanted, vec![]))
     }
 }
+
+const CLUSTERS: Wanted<'static> = Wanted {
+    id: "",
+    title: "Grids of clusters",
+    caption: "Clusters in three colours, by the sum of their indices modulo 3: as the camera sees them (of several views               side by side), and from above, where the bird's eye only looks and clusters nothing. Grey surfaces lie in no               visible cluster. Green lines are the frusta of the views, red ones those of the clusterings, or their boxes.",
+    missing: "needs rendered frames of Persp 64, Ortho 4 or Displ 64 32: replay with --exr and frame numbers",
+};
 
 const SHARING: Wanted<'static> = Wanted {
     id: "",

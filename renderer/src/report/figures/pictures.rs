@@ -56,7 +56,7 @@ pub fn frames(set: &ResultSet, setting: &Setting, wanted: &[u32]) -> Result<Opti
 /// A picture cannot be read.
 pub fn galleries(set: &ResultSet) -> Result<Vec<Figure>> {
     let mut found = vec![];
-    for setting in set.settings() {
+    for setting in set.settings_once() {
         for lighting in lightings(set.of(setting)) {
             let runs: Vec<&Run> =
                 set.of(setting).filter(|run| run.lighting == lighting && !run.pictures.is_empty()).collect();
@@ -103,7 +103,7 @@ fn gallery(runs: &[&Run], lighting: &LightingName, frames: &[u32]) -> Result<Cha
 }
 
 /// Persp, Ortho, Displ; Indi before Encl.
-fn order(method: MethodSpec) -> (usize, bool) {
+pub fn order(method: MethodSpec) -> (usize, bool) {
     let MethodSpec::Clustered { sharing, space } = method else { return (usize::MAX, false) };
     let place = crate::report::results::TUNED.iter().position(|&tuned| tuned == space).unwrap_or(usize::MAX);
     (place, sharing == Sharing::Encl)
@@ -121,7 +121,7 @@ fn rendered(runs: &[&Run], lighting: &LightingName, frame: u32) -> Result<Option
 }
 
 /// Of the frames that have pictures, those nearest to the wanted ones, each once.
-fn nearest(wanted: &[u32], runs: &[&Run]) -> Vec<u32> {
+pub fn nearest(wanted: &[u32], runs: &[&Run]) -> Vec<u32> {
     let frames = || runs.iter().flat_map(|run| &run.pictures).map(|picture| picture.frame);
     let mut found: Vec<u32> = wanted
         .iter()
@@ -131,7 +131,8 @@ fn nearest(wanted: &[u32], runs: &[&Run]) -> Vec<u32> {
     found
 }
 
-fn shown(path: &Path, frame: u32, alt: String, photo: bool) -> Result<Plot> {
+/// An image file, made as small as a page needs; a photo may lose a little.
+pub fn shown(path: &Path, frame: u32, alt: String, photo: bool) -> Result<Plot> {
     let cannot = |error: image::ImageError| Error::file(path, format!("cannot be read: {error}"));
     let image = image::open(path).map_err(cannot)?.into_rgb8();
     let image = fit(image, if photo { FilterType::Triangle } else { FilterType::Nearest });

@@ -4,6 +4,7 @@ use crate::methods::MethodSpec;
 use crate::output::RUN_FORMAT;
 use crate::report::format::grouped;
 use crate::report::results::{LightingName, Setting};
+use crate::report::way::Way;
 use crate::{Error, Result};
 use serde::Deserialize;
 use std::fs;
@@ -43,6 +44,25 @@ pub struct RunConfig {
     marking: Option<String>,
     displaced_volume: Option<String>,
     lights_file: Option<String>,
+    assign: Option<OneOrSeveral>,
+    test: Option<OneOrSeveral>,
+}
+
+/// An axis of a sweep; a run's own configuration has one value on it.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(untagged)]
+enum OneOrSeveral {
+    One(String),
+    Several(Vec<String>),
+}
+
+impl OneOrSeveral {
+    fn name(&self) -> String {
+        match self {
+            Self::One(name) => name.clone(),
+            Self::Several(names) => names.join(" or "),
+        }
+    }
 }
 
 fn one() -> u32 {
@@ -81,8 +101,11 @@ pub fn read(path: &Path) -> Result<RunFile> {
         }
     }
     serde_path_to_error::deserialize(value).map_err(|error| {
-        let field = error.path().to_string();
-        Error::file(path, format!("{field}: {}: measure anew", error.into_inner()))
+        let field = match error.path().to_string().as_str() {
+            "." => String::new(),
+            field => format!("{field}: "),
+        };
+        Error::file(path, format!("{field}{}: measure anew", error.into_inner()))
     })
 }
 
@@ -96,7 +119,7 @@ impl RunFile {
         self.method.parse().map_err(|error| Error::file(path, format!("method: {error}")))
     }
 
-    pub fn setting(&self, views: u32) -> Setting {
+    pub fn setting(&self, views: u32, method: MethodSpec) -> Setting {
         // What is as in the thesis goes without saying.
         let unusual = [
             (&self.config.attenuation, "phy_red_2", "attenuation"),
@@ -115,7 +138,14 @@ impl RunFile {
             msaa: self.config.msaa,
             options: options.collect(),
             hashes: [self.scene.sha256.clone(), self.recording.sha256.clone()],
+            way: self.way(method),
         }
+    }
+
+    fn way(&self, method: MethodSpec) -> Way {
+        let [assign, test] =
+            [&self.config.assign, &self.config.test].map(|axis| axis.as_ref().map(OneOrSeveral::name));
+        Way::new(assign, test, method)
     }
 
     pub fn lighting(&self) -> LightingName {

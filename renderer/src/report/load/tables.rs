@@ -49,7 +49,10 @@ impl<'a> Table<'a> {
             match self.reader.read_record(&mut record) {
                 Ok(true) => take(&Row { path: self.path, record: &record })?,
                 Ok(false) => return Ok(()),
-                Err(error) => return Err(Error::file(self.path, format!("is damaged: {error}"))),
+                Err(error) => {
+                    let line = error.position().map_or(0, csv::Position::line);
+                    return Err(Error::file(self.path, format!("is damaged at line {line}: measure anew")));
+                }
             }
         }
     }

@@ -1,20 +1,23 @@
 //! The page: one HTML file with its styles, script, drawings and numbers inside.
 
 mod runs;
+mod tables;
 
 pub use runs::write_runs_csv;
 
 use super::chart::palette;
-use super::claims::{Claim, Evidence, Verdict};
+use super::claims::{ByWay, Claim, Evidence, Verdict};
 use super::figures::Figure;
 use super::format::readable;
 use super::results::ResultSet;
+use super::tables::Table;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// Sections of figures: heading, anchor, and how the figures' numbers begin.
-const SECTIONS: [(&str, &str, &[&str]); 3] = [
+const SECTIONS: [(&str, &str, &[&str]); 4] = [
+    ("Chapter 4: grids", "chapter-4", &["4."]),
     ("Chapter 6: evaluation", "chapter-6", &["6."]),
     ("Appendix A: attenuation", "appendix-a", &["A."]),
     ("Appendix C: Sun Temple", "appendix-c", &["C"]),
@@ -52,12 +55,29 @@ const METHOD_NOTES: [(&str, &str); 6] = [
     ),
 ];
 
+/// What was made of the results.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Content<'a> {
+    /// The thesis's figures.
+    pub figures: &'a [Figure],
+    /// Further pictures.
+    pub galleries: &'a [Figure],
+    /// The thesis's claims.
+    pub claims: &'a [Claim],
+    /// Tables over several ways of assignment.
+    pub tables: &'a [Table],
+}
+
 /// The whole page.
-pub fn html(set: &ResultSet, figures: &[Figure], galleries: &[Figure], claims: &[Claim]) -> String {
+pub fn html(set: &ResultSet, content: &Content<'_>) -> String {
+    let Content { figures, galleries, claims, tables } = *content;
     let mut body = String::new();
     header(&mut body, set);
-    navigation(&mut body, !galleries.is_empty());
+    navigation(&mut body, content);
     claims_section(&mut body, claims);
+    if !tables.is_empty() {
+        tables::section(&mut body, tables);
+    }
     for (heading, anchor, prefixes) in SECTIONS {
         section(&mut body, anchor, heading);
         let belongs = |figure: &&Figure| prefixes.iter().any(|prefix| figure.id.starts_with(prefix));
@@ -150,13 +170,16 @@ fn minute(moment: &str) -> String {
     moment.chars().take(16).map(|c| if c == 'T' { ' ' } else { c }).collect()
 }
 
-fn navigation(body: &mut String, galleries: bool) {
+fn navigation(body: &mut String, content: &Content<'_>) {
     body.push_str("<nav>\n<a href=\"#claims\">Claims</a>\n");
+    if !content.tables.is_empty() {
+        body.push_str("<a href=\"#ways\">Ways of assignment</a>\n");
+    }
     for (heading, anchor, _) in SECTIONS {
         let short = heading.split(':').next().unwrap_or(heading);
         let _ = writeln!(body, "<a href=\"#{anchor}\">{short}</a>");
     }
-    if galleries {
+    if !content.galleries.is_empty() {
         body.push_str("<a href=\"#lights\">Lights per cluster</a>\n");
     }
     body.push_str("<a href=\"#runs\">All runs</a>\n<a href=\"#method\">How measured</a>\n</nav>\n");
@@ -184,11 +207,7 @@ fn claims_section(body: &mut String, claims: &[Claim]) {
     section(body, "claims", "Claims of the thesis");
     body.push_str("<div class=\"claims\">\n");
     for claim in claims {
-        let (class, sign) = match claim.verdict {
-            Verdict::Holds => ("holds", "✓"),
-            Verdict::DoesNotHold => ("fails", "✗"),
-            Verdict::NotEnoughData => ("open", "–"),
-        };
+        let (class, sign) = sign(claim.verdict);
         let _ = writeln!(
             body,
             "<details class=\"claim\"><summary><span class=\"place\">{}</span><span class=\"words\">{}</span>\
@@ -206,9 +225,31 @@ fn claims_section(body: &mut String, claims: &[Claim]) {
             let _ = writeln!(body, "<p class=\"criterion\"><b>Missing:</b> {}.</p>", text(missing));
         }
         evidence(body, &claim.evidence);
+        claim.other_ways.iter().for_each(|other| other_way(body, other));
         body.push_str("</details>\n");
     }
     body.push_str("</div>\n</section>\n");
+}
+
+/// Class and sign of a verdict.
+fn sign(verdict: Verdict) -> (&'static str, &'static str) {
+    match verdict {
+        Verdict::Holds => ("holds", "✓"),
+        Verdict::DoesNotHold => ("fails", "✗"),
+        Verdict::NotEnoughData => ("open", "–"),
+    }
+}
+
+/// What another way of assignment says of the claim above.
+fn other_way(body: &mut String, other: &ByWay) {
+    let (class, sign) = sign(other.verdict);
+    let _ = writeln!(
+        body,
+        "<p class=\"criterion\"><b>Lights assigned by {}:</b> <span class=\"verdict {class}\"><i>{sign}</i> {}</span></p>",
+        text(&other.way),
+        other.verdict
+    );
+    evidence(body, &other.evidence);
 }
 
 fn evidence(body: &mut String, evidence: &[Evidence]) {

@@ -1,0 +1,166 @@
+//! Looks at a frame that has ended, from any camera, and changes nothing of it.
+
+use super::camera::{self, Camera};
+use super::compose::{self, Layers};
+use super::record::{self, Drawing, Outputs};
+use super::{Base, Show, shapes};
+use crate::Result;
+use crate::clustering::view_data;
+use crate::config::Config;
+use crate::gpu_interface::PixelData;
+use crate::measure::ViewPixels;
+use crate::passes::pixel_maps;
+use crate::pipelines::DebugPipelines;
+use crate::replay::FramePlan;
+use crate::replay::atemporal::SLOT;
+use crate::replay::engine::{self, Engine, Mode};
+use crate::replay::session::Session;
+use crate::views::View;
+use crate::vk::{Buffer, Memory};
+use ash::vk;
+use half::f16;
+use image::RgbImage;
+
+/// One who looks.
+pub struct Onlooker<'a> {
+    /// How the frame was rendered.
+    pub config: &'a Config,
+    /// Names of the recording's views.
+    pub names: &'a [String],
+    /// The frame.
+    pub plan: &'a FramePlan,
+    /// From where.
+    pub camera: Camera,
+    /// At what.
+    pub show: Show,
+}
+
+/// What an onlooker sees.
+pub struct Seen {
+    /// As a display shows it.
+    pub image: RgbImage,
+    /// Colour in linear light, and everything known of the pixels.
+    pub pixels: ViewPixels,
+}
+
+impl<'a> Onlooker<'a> {
+    /// One who sees clusters and frusta from above (Gelderen figure 4.8).
+    pub fn birdseye(config: &'a Config, names: &'a [String], plan: &'a FramePlan) -> Self {
+        let show = Show { base: Base::Clusters, frusta: true, ..Show::default() };
+        Self { config, names, plan, camera: Camera::BirdsEye, show }
+    }
+
+    /// Looks at the frame that `engine`, made for `mode`, counted last; `shaded` are its views.
+    ///
+    /// # Errors
+    /// Whatever fails on the device.
+    pub fn look(
+        &self,
+        session: &mut Session,
+        engine: &mut Engine,
+        mode: &Mode,
+        shaded: Vec<ViewPixels>,
+    ) -> Result<Seen> {
+        let pipelines = session.store.debug(&engine::variant(self.config, engine.method(), mode))?;
+        let eye = self.eye(&shaded)?;
+        let layers = self.layers(session, engine, (&pipelines, &eye), shaded)?;
+        let empty = self.empty_pixels(&eye);
+        let (image, pixels) = compose::compose(&self.show, &layers, &self.plan.grids, empty);
+        Ok(Seen { image, pixels })
+    }
+
+    /// Where the camera is.
+    fn eye(&self, shaded: &[ViewPixels]) -> Result<View> {
+        let views = &self.plan.views;
+        match self.camera {
+            Camera::View(view) => Ok(views[view]),
+            Camera::BirdsEye => {
+                let far = views.iter().map(|view| view.frustum.far()).fold(0.0, f64::max);
+                let distances = shaded.iter().flat_map(|view| view.depth.iter().copied());
+                camera::birdseye(views, self.config.resolution, camera::reach(far, distances))
+            }
+        }
+    }
+
+    /// Draws what the camera sees. The frame has ended: what its views were is overwritten for an onlooker.
+    fn layers(
+        &self,
+        session: &mut Session,
+        engine: &mut Engine,
+        (pipelines, eye): (&DebugPipelines, &View),
+        mut shaded: Vec<ViewPixels>,
+    ) -> Result<Layers> {
+        let clustered = !self.plan.grids.is_empty();
+        let all: Vec<usize> = (0..self.plan.grids.len().max(1)).collect();
+        let (view, lookup, clusterings) = match self.camera {
+            Camera::View(view) => (view, 0, vec![if all.len() > 1 { view } else { 0 }]),
+            Camera::BirdsEye => {
+                let slot = &mut session.slots[SLOT];
+                slot.views.write(0, &[view_data(eye, None, self.config.resolution, session.reach)]);
+                slot.draw_lists[0].update(&session.batches, std::slice::from_ref(eye));
+                (0, 1, all)
+            }
+        };
+        let lines =
+            if self.show.frusta { shapes::frusta(&self.plan.views, &self.plan.grids) } else { vec![] };
+        let line_buffer = (!lines.is_empty())
+            .then(|| {
+                Buffer::with_data(&session.context, "lines", vk::BufferUsageFlags::VERTEX_BUFFER, &lines)
+            })
+            .transpose()?;
+        let [color_bytes, pixel_bytes] = pixel_maps::view_bytes(self.config.resolution);
+        let readback = |size| {
+            let usage = vk::BufferUsageFlags::TRANSFER_DST;
+            Buffer::new(&session.context, "still readback", size, usage, Memory::Readback)
+        };
+        let (clay, overlay) = (readback(color_bytes)?, readback(color_bytes)?);
+        let known: Vec<Buffer> = clusterings.iter().map(|_| readback(pixel_bytes)).collect::<Result<_>>()?;
+        let drawing = Drawing {
+            pipelines,
+            view,
+            lookup: clustered.then_some(lookup),
+            clusterings,
+            lines: line_buffer.as_ref().map(|buffer| (buffer, lines.len() as u32)),
+            spheres: self.show.lights,
+        };
+        let outputs = Outputs { clay: &clay, overlay: &overlay, clusterings: &known };
+        engine.follow_up(session, SLOT, |r, frame| record::record(r, frame, &drawing, &outputs))?;
+        let pixels = self.pixel_count();
+        let color = |buffer: &Buffer| {
+            buffer.read::<[u16; 4]>(0, pixels).into_iter().map(|t| t.map(f16::from_bits)).collect()
+        };
+        let mut clusterings: Vec<Vec<PixelData>> =
+            known.iter().map(|buffer| buffer.read(0, pixels)).collect();
+        let distance = clusterings[0].iter().map(|pixel| pixel.distance).collect();
+        if !clustered {
+            clusterings.clear();
+        }
+        let shaded = match self.camera {
+            Camera::View(view) => Some(shaded.swap_remove(view).color),
+            Camera::BirdsEye => None,
+        };
+        Ok(Layers { shaded, clay: color(&clay), overlay: color(&overlay), clusterings, distance })
+    }
+
+    fn pixel_count(&self) -> usize {
+        self.config.resolution.map(|side| side as usize).into_iter().product()
+    }
+
+    /// The camera's name, size and matrices.
+    fn empty_pixels(&self, eye: &View) -> ViewPixels {
+        let [width, height] = self.config.resolution;
+        ViewPixels {
+            name: self.camera.name(self.names),
+            width,
+            height,
+            color: vec![],
+            depth: vec![],
+            light_count: vec![],
+            fragment_count: vec![],
+            cluster_index: vec![],
+            dimensions: [0; 3],
+            world_from_view: eye.world_from_view(),
+            clip_from_view: eye.clip_from_view(),
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Benchmarks as their users meet them: tables, figures, what measuring costs.
+
+use manylight_tests::manylight;
+use std::fs;
+use std::process::Command;
+
+fn succeed(command: &mut Command) -> String {
+    let output = command.output().expect("the program starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+#[test]
+fn assignment_is_drawn_over_lights_and_over_clusters() {
+    let out = tempfile::tempdir().unwrap();
+    let mut command = manylight();
+    command.args(["bench", "assign", "--quiet", "--resolution", "64x48", "--frame", "300", "--repeats", "1"]);
+    command.args(["--lights", "50,100", "--method", "indi-persp-16", "--method", "indi-persp-32"]);
+    succeed(command.arg("--out").arg(out.path().join("assign.csv")));
+    let read = |name: &str| fs::read_to_string(out.path().join(name)).unwrap();
+    let ways = 3;
+    assert_eq!(read("assign.csv").lines().count(), 1 + 2 * 2 * ways);
+    assert_eq!(read("assign.svg").matches("mark-line").count(), 2 * ways);
+    assert_eq!(read("assign_clusters.svg").matches("mark-line").count(), 2 * ways);
+    let exponents = read("assign_exponents.csv");
+    assert_eq!(exponents.lines().count(), 1 + 4 * ways, "{exponents}");
+}
+
+#[test]
+fn measuring_costs_a_ratio_of_each_run() {
+    let mut command = manylight();
+    command.args([
+        "bench",
+        "scopes",
+        "--json",
+        "--resolution",
+        "64x48",
+        "--frames",
+        "300..381/80",
+        "--runs",
+        "2",
+    ]);
+    command.args(["--lights", "50", "--method", "indi-persp-64", "--method", "all-lights", "--validate"]);
+    let rows: serde_json::Value = serde_json::from_str(&succeed(&mut command)).unwrap();
+    let rows = rows.as_array().unwrap();
+    assert_eq!(
+        rows.iter().map(|row| row["run"].as_str().unwrap()).collect::<Vec<_>>(),
+        ["indi-persp-64", "all-lights"]
+    );
+    for row in rows {
+        assert_eq!(row["frames"], 2);
+        let number = |name: &str| row[name].as_f64().unwrap();
+        assert!(number("all_ms") > 0.0 && number("frame_ms") > 0.0 && number("ratio") > 0.0, "{row}");
+    }
+    for wrong in [["--runs", "0"], ["--scopes", "frame"]] {
+        let refused = manylight().args(["bench", "scopes"]).args(wrong).output().unwrap();
+        assert_eq!(refused.status.code(), Some(2), "{wrong:?}");
+    }
+}
