@@ -28,47 +28,57 @@ impl fmt::Display for Assigner {
     }
 }
 
-/// What decides which way is cheapest: counts of one frame, summed over its clusterings.
+/// What decides which way is cheapest: counts of one clustering in one frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AssignCounts {
-    /// Lights, once a clustering.
-    pub lights: u64,
+    /// Lights.
+    pub lights: u32,
     /// Clusters to build lists for.
-    pub visible_clusters: u64,
+    pub visible_clusters: u32,
     /// Lengths of all lists together.
-    pub light_indices: u64,
-    /// Cells of the grids.
-    pub clusters: u64,
+    pub light_indices: u32,
+    /// Tiles that scatter tests.
+    pub tiles: u32,
 }
 
-/// Cost of sorting a light and building its share of the tree, in tests of a sphere against a cell (measured, as the
-/// others, with `bench assign` on lavapipe).
-const COST_BUILD: f64 = 50.0;
-/// Tests that the hierarchy makes for each light that it finds.
-const COST_FOUND: f64 = 5.0;
-/// Tests for each cluster on the way down.
-const COST_DESCENT: f64 = 40.0;
-/// Cost of finding and walking a light's range of cells: threads wait for the light of their group that is nearest
-/// to the camera.
-const COST_RANGE: f64 = 600.0;
-/// Cost of each cell in it; most are skipped by the word.
-const COST_CELL: f64 = 0.5;
+// Costs in tests of brute force, which takes about 1.3 ns a test on two cores of lavapipe, where `bench assign` measured
+// them.
+
+/// Of culling a light.
+const COST_CULL: f64 = 45.0;
+/// Of the dispatches that follow culling.
+const COST_SCATTER: f64 = 1e6;
+/// Of a test by scatter: tiles are not full.
+const COST_TILE: f64 = 2.0 * (ASSIGN_GROUP * ASSIGN_GROUP) as f64;
+/// Of the dispatches that build the hierarchy.
+const COST_HIERARCHY: f64 = 2e6;
+/// Of a test by the hierarchy, whose threads each read nodes of their own.
+const COST_NODE: f64 = 40.0;
+/// Tests of the hierarchy for each light that it finds.
+const NODES_FOUND: f64 = 7.0;
+/// Tests of the hierarchy for each cluster on the way down.
+const NODES_DESCENT: f64 = 90.0;
 
 impl AssignCounts {
-    /// The way that a simple model of the work finds cheapest: the same for the same counts.
-    pub fn cheapest(&self) -> Assigner {
-        let [lights, visible, indices, clusters] =
-            [self.lights, self.visible_clusters, self.light_indices, self.clusters].map(|count| count as f64);
-        // Lights meet as many invisible cells, of those there are, as visible ones.
-        let cells_met = indices * clusters / visible.max(1.0);
-        let costs = [
-            (Assigner::Hierarchy, COST_BUILD * lights + COST_FOUND * indices + COST_DESCENT * visible),
-            (Assigner::Scatter, COST_RANGE * lights + COST_CELL * cells_met + COST_FOUND * indices),
-            (Assigner::Brute, 2.0 * lights * visible),
-        ];
-        let cheapest = costs.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
-        cheapest.map_or(Assigner::Brute, |(assigner, _)| assigner)
+    fn cost(&self, assigner: Assigner) -> f64 {
+        let [lights, visible, indices, tiles] =
+            [self.lights, self.visible_clusters, self.light_indices, self.tiles].map(f64::from);
+        match assigner {
+            Assigner::Brute => lights * visible,
+            Assigner::Scatter => COST_SCATTER + COST_CULL * lights + COST_TILE * tiles,
+            Assigner::Hierarchy => {
+                let nodes = NODES_FOUND * indices + NODES_DESCENT * visible;
+                COST_HIERARCHY + COST_CULL * lights + COST_NODE * nodes
+            }
+        }
     }
+}
+
+/// The way that a simple model of the work finds cheapest for the clusterings of a frame: the same for the same counts.
+pub fn cheapest(clusterings: &[AssignCounts]) -> Assigner {
+    let cost = |assigner| clusterings.iter().map(|counts| counts.cost(assigner)).sum::<f64>();
+    let ways = [Assigner::Brute, Assigner::Scatter, Assigner::Hierarchy];
+    ways.into_iter().min_by(|&a, &b| cost(a).total_cmp(&cost(b))).unwrap_or(Assigner::Brute)
 }
 
 /// Bits of lists take at most this many words.
@@ -179,15 +189,13 @@ mod tests {
 
     #[test]
     fn few_lights_are_assigned_by_brute_force_and_many_are_not() {
-        let counts = |lights, light_indices| AssignCounts {
-            lights,
-            visible_clusters: 1000,
-            light_indices,
-            clusters: 20_000,
+        let counts = |lights, light_indices, tiles| {
+            cheapest(&[AssignCounts { lights, visible_clusters: 850, light_indices, tiles }])
         };
-        assert_eq!(counts(1, 100).cheapest(), Assigner::Brute);
-        assert_ne!(counts(100_000, 200_000).cheapest(), Assigner::Brute);
-        let nothing = AssignCounts { lights: 1, visible_clusters: 0, light_indices: 0, clusters: 1 };
-        assert_eq!(nothing.cheapest(), Assigner::Brute);
+        assert_eq!(counts(1, 100, 1), Assigner::Brute);
+        assert_eq!(counts(1000, 14_732, 44), Assigner::Brute);
+        assert_eq!(counts(100_000, 1390, 14), Assigner::Scatter);
+        assert_eq!(counts(100_000, 1390, 1_000_000), Assigner::Hierarchy);
+        assert_eq!(cheapest(&[]), Assigner::Brute);
     }
 }

@@ -1,7 +1,7 @@
 //! All methods shade every frame alike: as brute force over all lights does, mono and stereo, at one and at four
 //! samples a pixel, marked from depth and from geometry.
 
-use manylight::config::{Config, ExrFrames, FrameRange, Marking};
+use manylight::config::{Config, ExrFrames, FrameRange, Lighting, Marking};
 use manylight::measure::ViewPixels;
 use manylight::output::tone_map;
 use manylight_tests::{METHODS, Run, methods, run};
@@ -37,7 +37,12 @@ fn difference(a: &ViewPixels, b: &ViewPixels) -> (u8, f32) {
 }
 
 fn check(recording: &str, msaa: u32, marking: Marking) {
-    let runs = run(config(recording, msaa, marking));
+    check_runs(config(recording, msaa, marking));
+}
+
+fn check_runs(config: Config) {
+    let marking = config.marking;
+    let runs = run(config);
     let truth = &runs[0];
     for run in &runs[1..] {
         let name = &run.planned.name;
@@ -105,4 +110,16 @@ fn stereo_with_four_samples_marked_from_geometry() {
 #[test]
 fn stereo_with_four_samples() {
     check("bistro-vive", 4, Marking::Depth);
+}
+
+/// More lights than lavapipe lets a loop have turns.
+#[test]
+fn a_hundred_thousand_lights() {
+    check_runs(Config {
+        methods: methods(&["all-lights", "indi-persp-16", "indi-ortho-4"]),
+        lights: vec![Lighting { count: 100_000, intensity: 5.0, cutoff: 0.5, r0: 0.1 }],
+        resolution: [32, 18],
+        frames: FrameRange { first: 300, end: Some(301), step: 1 },
+        ..config("bistro", 1, Marking::Depth)
+    });
 }

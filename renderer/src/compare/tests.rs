@@ -163,7 +163,7 @@ fn ways_of_assignment_compare_with_each_other_unless_a_set_holds_several() {
     assert_eq!(compare(&both, &both).unwrap().runs.len(), 2);
     let halves = compare(&both, &scatter).unwrap();
     assert_eq!((halves.runs.len(), halves.missing_in_b.len()), (1, 1));
-    assert!(halves.missing_in_b[0].ends_with("assigned by brute"), "{halves}");
+    assert!(halves.missing_in_b[0].contains(", brute, "), "{halves}");
 }
 
 #[test]

@@ -82,7 +82,7 @@ pub enum Assign {
     Brute,
     /// Every visible cluster down a hierarchy of the lights, built anew each frame.
     Hierarchy,
-    /// Every light through the cells that its bounds meet.
+    /// Every light to the groups of visible clusters that its cells meet.
     Scatter,
     /// What is likely fastest, by counts taken before the run.
     Auto,

@@ -5,8 +5,9 @@ use super::plan::FramePlan;
 use super::session::Session;
 use super::{Inputs, temporal};
 use crate::Result;
-use crate::assign::{AssignCounts, Assigner};
+use crate::assign::{AssignCounts, Assigner, cheapest};
 use crate::config::Config;
+use crate::gpu_interface::ClusteringState;
 use crate::measure::Capacities;
 use crate::methods::MethodSpec;
 use crate::output::PlannedRun;
@@ -23,17 +24,17 @@ pub fn assigner(
     }
     match run.assign.fixed() {
         Some(assigner) => Ok(assigner),
-        None => Ok(count_once(config, inputs, session, (run, plans))?.cheapest()),
+        None => Ok(cheapest(&count_once(config, inputs, session, (run, plans))?)),
     }
 }
 
-/// Renders the run's middle frame once, by the way that is never far off, for its counts.
+/// Builds the lists of the run's middle frame once, by scatter, for the counts of its clusterings.
 fn count_once(
     config: &Config,
     inputs: &Inputs,
     session: &mut Session,
     (run, plans): (&PlannedRun, &[FramePlan]),
-) -> Result<AssignCounts> {
+) -> Result<Vec<AssignCounts>> {
     let plan = &plans[plans.len() / 2];
     let mut source = inputs.light_source(&run.lights)?;
     let lights = source.at_frame(plan.frame).len() as u32;
@@ -42,14 +43,15 @@ fn count_once(
         light_indices: config.light_index_capacity,
     };
     let test = run.test.of(&run.method);
-    let mode = Mode { lights, capacities, assigner: Assigner::Hierarchy, test, counting: false };
+    let mode = Mode { lights, capacities, assigner: Assigner::Scatter, test, counting: false };
     let mut engine = Engine::new(session, config, run.method, std::slice::from_ref(plan), mode)?;
+    engine.shaded = false;
     temporal::warm_up(&mut engine, session, plan, &mut source)?;
-    let states = engine.states(session, 0);
-    Ok(AssignCounts {
-        lights: u64::from(lights) * states.len() as u64,
-        visible_clusters: states.iter().map(|s| u64::from(s.visible_total)).sum(),
-        light_indices: states.iter().map(|s| u64::from(s.index_total)).sum(),
-        clusters: plan.grids.iter().map(|grid| grid.cluster_count()).sum(),
-    })
+    let counts = |state: &ClusteringState| AssignCounts {
+        lights,
+        visible_clusters: state.visible_total,
+        light_indices: state.index_total,
+        tiles: state.tiles,
+    };
+    Ok(engine.states(session, 0).iter().map(counts).collect())
 }

@@ -2,11 +2,11 @@
 
 use super::engine::Engine;
 use super::session::Session;
-use crate::Result;
 use crate::gpu_interface::{ClusteringState, Counter};
 use crate::measure::{ClusterLists, ClusterRecord, ClusteringCounts};
 use crate::passes::readback;
 use crate::vk::{Buffer, Memory};
+use crate::{Error, Result};
 use ash::vk;
 
 /// Everything counted of one clustering in one frame.
@@ -45,6 +45,23 @@ impl Counted {
             });
         let lists = ClusterLists { frame, clustering: clustering as u32, offsets, indices };
         Ok(Self { state, counters, lights_per_fragment, visible_clusters, visible_fragments, lists })
+    }
+
+    /// Refuses a frame in which fewer lights were evaluated than the lists of its fragments name.
+    ///
+    /// # Errors
+    /// The driver ended the loop over the lights early.
+    pub fn check_evaluations(&self) -> Result<()> {
+        let listed: u64 = self.lights_per_fragment().iter().map(|&(lights, n)| u64::from(lights) * n).sum();
+        let evaluated = self.counter(Counter::LightingComputations);
+        if evaluated == listed {
+            return Ok(());
+        }
+        Err(Error::Device(format!(
+            "the driver evaluated {evaluated} of {listed} lights in frame {}: it ends long loops early (lavapipe does); \
+             use fewer lights, or smaller radii",
+            self.lists.frame
+        )))
     }
 
     /// One 64-bit counter.
