@@ -24,6 +24,7 @@ void main()
     if (visible >= state.visible)
         return;
 #if !WRITE_LISTS
+    count(COUNTER_INTERSECTION_TESTS, there);
     if (state.masked != 0u) {
         // A tile is two words that no other thread writes.
         uint word = visible * state.mask_words + 2u * tile;
@@ -31,11 +32,9 @@ void main()
         light_masks[word + 1u] = met.y;
         if (any(notEqual(met, uvec2(0u))))
             atomicAdd(list_lengths[visible], uint(bitCount(met.x) + bitCount(met.y)));
-        count(COUNTER_INTERSECTION_TESTS, there);
         return;
     }
 #endif
     add_lights(visible, first, met.x);
     add_lights(visible, first + 32u, met.y);
-    count(COUNTER_INTERSECTION_TESTS, there);
 }

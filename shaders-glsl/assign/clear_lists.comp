@@ -1,4 +1,4 @@
-// Empties what counting fills in any order: the bits of each list, or its length.
+// Empties what counting adds to: the length of each list, and its bits where these are set one by one.
 #version 460
 #include "generated/gpu_interface.glsl"
 

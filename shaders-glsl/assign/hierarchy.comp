@@ -36,7 +36,7 @@ void main()
         if (hit) {
             uint first = place * TREE_WIDTH;
             uint end = min(first + TREE_WIDTH, lights_there);
-            // Some drivers end loops after 2^16 turns: a leaf is none.
+            // A leaf is no loop: lavapipe ends a shader's loops after 65 535 turns of all of them.
             [[unroll]] for (uint i = 0u; i < TREE_WIDTH; ++i)
                 if (first + i < end && meets(cell, tree_spheres[first + i]))
                     add_light(visible, tree_lights[first + i]);
@@ -52,5 +52,7 @@ void main()
             place = root;
         }
     }
+#if !WRITE_LISTS
     count(COUNTER_INTERSECTION_TESTS, tests);
+#endif
 }

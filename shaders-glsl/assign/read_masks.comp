@@ -5,31 +5,49 @@
 
 layout(local_size_x = ASSIGN_GROUP) in;
 
-// Lights that are read in one turn: some drivers end loops after 2^16 turns.
-const uint AT_ONCE = 8u;
+// Words, and lights, that are read in one turn: lavapipe ends a shader's loops after 65 535 turns of all of them.
+const uint WORDS_AT_ONCE = 4u;
+const uint LIGHTS_AT_ONCE = 8u;
+
+uint word_of(uint visible, uint word)
+{
+    return word < state.mask_words ? light_masks[visible * state.mask_words + word] : 0u;
+}
+
+// The lowest bit set among four words, counted through, which is cleared.
+uint take_lowest(inout uvec4 words)
+{
+    uint at = words.x != 0u ? 0u : words.y != 0u ? 1u : words.z != 0u ? 2u : 3u;
+    uint bit = uint(findLSB(words[at]));
+    words[at] &= words[at] - 1u;
+    return at * 32u + bit;
+}
 
 void main()
 {
     uint visible = gl_GlobalInvocationID.x;
     if (visible >= state.visible)
         return;
-    uint first = visible * state.mask_words;
 #if WRITE_LISTS
     uint slot = list_offsets[visible];
     uint end = min(list_offsets[visible + 1u], grid.index_capacity);
-    for (uint word = 0u; slot < end; ++word) {
-        for (uint bits = light_masks[first + word]; bits != 0u;) {
-            [[unroll]] for (uint i = 0u; i < AT_ONCE; ++i) {
-                if (bits != 0u && slot < end)
-                    light_indices[slot++] = light_of_number(word * 32u + uint(findLSB(bits)));
-                bits &= bits - 1u;
+    for (uint word = 0u; word < state.mask_words && slot < end; word += WORDS_AT_ONCE) {
+        uvec4 words = uvec4(word_of(visible, word), word_of(visible, word + 1u), word_of(visible, word + 2u), word_of(visible, word + 3u));
+        while (any(notEqual(words, uvec4(0u)))) {
+            [[unroll]] for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i) {
+                if (any(notEqual(words, uvec4(0u)))) {
+                    uint light = light_of_number(word * 32u + take_lowest(words));
+                    if (slot < end)
+                        light_indices[slot++] = light;
+                }
             }
         }
     }
 #else
     uint lights_met = 0u;
-    for (uint word = first; word < first + state.mask_words; ++word)
-        lights_met += uint(bitCount(light_masks[word]));
+    for (uint word = 0u; word < state.mask_words; word += WORDS_AT_ONCE)
+        [[unroll]] for (uint i = 0u; i < WORDS_AT_ONCE; ++i)
+            lights_met += uint(bitCount(word_of(visible, word + i)));
     list_lengths[visible] = lights_met;
 #endif
 }

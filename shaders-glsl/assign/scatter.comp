@@ -36,5 +36,7 @@ void main()
     for (uint half_tile = 0u; half_tile < 2u; ++half_tile)
         for (uint bits = met[half_tile]; bits != 0u; bits &= bits - 1u)
             add_light(visible, tile_numbers[half_tile * 32u + uint(findLSB(bits))]);
+#if !WRITE_LISTS
     count(COUNTER_INTERSECTION_TESTS, there);
+#endif
 }

@@ -7,8 +7,8 @@
 
 layout(local_size_x = ASSIGN_GROUP) in;
 
-// Exchanges that a thread makes in one turn: some drivers end loops after 2^16 turns.
-const uint AT_ONCE = 8u;
+// Exchanges that a thread makes in one turn: lavapipe ends a shader's loops after 65 535 turns of all of them.
+const uint AT_ONCE = 16u;
 
 void exchange(uint first, uint size, uint low, uint high)
 {

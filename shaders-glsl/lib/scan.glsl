@@ -16,6 +16,13 @@ uint scan_blocks()
     return (scan_length() + SCAN_BLOCK - 1u) / SCAN_BLOCK;
 }
 
+// A sum that is all ones once it is more than 32 bits hold: it must not wrap to one that seems to fit, and prefixes must not
+// descend.
+uint saturating_sum(uint a, uint b)
+{
+    return a + b < a ? 0xFFFFFFFFu : a + b;
+}
+
 shared uint scan_partial[SCAN_GROUP];
 
 // Exclusive prefix sum over the workgroup, with the total of all threads.
@@ -27,13 +34,13 @@ uint group_exclusive_sum(uint value, out uint total)
     for (uint reach = 1u; reach < SCAN_GROUP; reach <<= 1) {
         uint before = thread >= reach ? scan_partial[thread - reach] : 0u;
         barrier();
-        scan_partial[thread] += before;
+        scan_partial[thread] = saturating_sum(scan_partial[thread], before);
         barrier();
     }
     total = scan_partial[SCAN_GROUP - 1u];
-    uint inclusive = scan_partial[thread];
+    uint exclusive = thread > 0u ? scan_partial[thread - 1u] : 0u;
     barrier();
-    return inclusive - value;
+    return exclusive;
 }
 
 // The items of one thread of a block, 0 beyond the last; with their sum.
@@ -42,7 +49,7 @@ uint load_items(uint first, out uint values[SCAN_PER_THREAD])
     uint sum = 0u;
     for (uint k = 0u; k < SCAN_PER_THREAD; ++k) {
         values[k] = first + k < scan_length() ? scan_item(first + k) : 0u;
-        sum += values[k];
+        sum = saturating_sum(sum, values[k]);
     }
     return sum;
 }
@@ -52,13 +59,6 @@ void emit_items(uint first, uint values[SCAN_PER_THREAD], uint prefix)
     for (uint k = 0u; k < SCAN_PER_THREAD; ++k) {
         if (first + k < scan_length())
             emit(first + k, prefix);
-        prefix += values[k];
+        prefix = saturating_sum(prefix, values[k]);
     }
-}
-
-// The sum of what was carried here and a total; all ones once that is more than 32 bits hold: such a total must not wrap
-// to one that seems to fit.
-uint carry(uint carried, uint total)
-{
-    return carried + total < carried ? 0xFFFFFFFFu : carried + total;
 }

@@ -7,7 +7,7 @@
 #include "lib/counters.glsl"
 #include "lib/light.glsl"
 
-// Lights that are evaluated in one turn of the loop: some drivers (lavapipe) end loops after 2^16 turns, in silence.
+// Lights that are evaluated in one turn of the loop: lavapipe ends a shader's loops after 65 535 turns, in silence.
 #if LOOKUP == LOOKUP_ALL_LIGHTS
 const uint AT_ONCE = 16u;
 #else

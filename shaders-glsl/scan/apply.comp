@@ -10,5 +10,5 @@ void main()
     uint values[SCAN_PER_THREAD];
     uint total;
     uint prefix = group_exclusive_sum(load_items(first, values), total);
-    emit_items(first, values, block_sums[gl_WorkGroupID.x] + prefix);
+    emit_items(first, values, saturating_sum(block_sums[gl_WorkGroupID.x], prefix));
 }

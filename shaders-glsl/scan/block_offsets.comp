@@ -12,8 +12,8 @@ void main()
         uint total;
         uint before = group_exclusive_sum(block < scan_blocks() ? block_sums[block] : 0u, total);
         if (block < scan_blocks())
-            block_sums[block] = carried + before;
-        carried = carry(carried, total);
+            block_sums[block] = saturating_sum(carried, before);
+        carried = saturating_sum(carried, total);
     }
     if (gl_LocalInvocationID.x == 0u)
         publish(carried);

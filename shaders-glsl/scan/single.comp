@@ -13,8 +13,8 @@ void main()
         uint values[SCAN_PER_THREAD];
         uint total;
         uint prefix = group_exclusive_sum(load_items(first, values), total);
-        emit_items(first, values, carried + prefix);
-        carried = carry(carried, total);
+        emit_items(first, values, saturating_sum(carried, prefix));
+        carried = saturating_sum(carried, total);
     }
     if (gl_LocalInvocationID.x == 0u)
         publish(carried);

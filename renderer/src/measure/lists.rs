@@ -19,6 +19,14 @@ impl ClusterLists {
         &self.indices[self.offsets[visible] as usize..self.offsets[visible + 1] as usize]
     }
 
+    /// Whether each list ascends, and names none but the first `lights` lights.
+    pub fn ascend(&self, lights: u32) -> bool {
+        let visible = self.offsets.len().saturating_sub(1);
+        (0..visible)
+            .map(|list| self.list(list))
+            .all(|list| list.is_sorted_by(|a, b| a < b) && list.last().is_none_or(|&light| light < lights))
+    }
+
     /// FNV-1a, 64 bits, over each visible cluster's index, list length and list, in order, as little-endian words.
     pub fn hash(&self, clusters: impl Iterator<Item = u32>) -> u64 {
         let mut hash = Fnv::default();

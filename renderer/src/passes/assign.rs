@@ -95,7 +95,7 @@ fn meet(r: &mut Recorder, frame: &Frame, clustering: usize, dispatch: (&Pipeline
     indirect(r, frame, clustering, dispatch, (&reads, &writes));
 }
 
-/// Runs a pipeline with a thread per list.
+/// Runs a pipeline that works on each list by itself.
 fn per_list(r: &mut Recorder, frame: &Frame, clustering: usize, dispatch: (&Pipeline, u32)) {
     let b = &frame.clusterings[clustering].buffers;
     let writes = [&b.light_masks, &b.list_lengths, &b.light_indices];

@@ -84,7 +84,7 @@ fn read_counts(
     for (c, state) in states.into_iter().enumerate() {
         let state = if clustered { state } else { ClusteringState::default() };
         let read = Counted::read(engine, session, (SLOT, plan.frame, c), (state, lights))?;
-        read.check_evaluations()?;
+        read.check(lights)?;
         counts.fragments_shaded += read.counter(Counter::FragmentsShaded);
         counts.fragments_without_cluster += read.counter(Counter::FragmentsWithoutCluster);
         counts.lighting_computations += read.counter(Counter::LightingComputations);

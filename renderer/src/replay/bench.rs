@@ -55,7 +55,7 @@ pub struct BenchRow {
     pub light_indices: u64,
     /// Of all clusterings; of nodes too.
     pub intersection_tests: u64,
-    /// Build, count, offsets and assign: least of the repeats, milliseconds.
+    /// Culling of lights, build, count, offsets and assign: least of the repeats, milliseconds.
     pub gpu_ms: f64,
 }
 

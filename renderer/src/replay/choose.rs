@@ -44,7 +44,12 @@ fn count_once(
     };
     let test = run.test.of(&run.method);
     let mode = Mode { lights, capacities, assigner: Assigner::Scatter, test, counting: false };
-    let mut engine = Engine::new(session, config, run.method, std::slice::from_ref(plan), mode)?;
+    let plan_alone = std::slice::from_ref(plan);
+    if Engine::check(session, config, run.method, plan_alone, &mode).is_err() {
+        // What scatter needs beside does not fit the device: nothing to count by, so brute force.
+        return Ok(vec![]);
+    }
+    let mut engine = Engine::new(session, config, run.method, plan_alone, mode)?;
     engine.shaded = false;
     temporal::warm_up(&mut engine, session, plan, &mut source)?;
     let counts = |state: &ClusteringState| AssignCounts {

@@ -47,19 +47,20 @@ impl Counted {
         Ok(Self { state, counters, lights_per_fragment, visible_clusters, visible_fragments, lists })
     }
 
-    /// Refuses a frame in which fewer lights were evaluated than the lists of its fragments name.
+    /// Refuses a frame whose lists do not ascend, or in which fewer lights were evaluated than the lists of its fragments
+    /// name.
     ///
     /// # Errors
-    /// The driver ended the loop over the lights early.
-    pub fn check_evaluations(&self) -> Result<()> {
+    /// The driver ended a loop over `lights` lights early.
+    pub fn check(&self, lights: u32) -> Result<()> {
         let listed: u64 = self.lights_per_fragment().iter().map(|&(lights, n)| u64::from(lights) * n).sum();
         let evaluated = self.counter(Counter::LightingComputations);
-        if evaluated == listed {
+        if evaluated == listed && self.lists.ascend(lights) {
             return Ok(());
         }
         Err(Error::Device(format!(
-            "the driver evaluated {evaluated} of {listed} lights in frame {}: it ends long loops early (lavapipe does); \
-             use fewer lights, or smaller radii",
+            "the driver evaluated {evaluated} of {listed} lights in frame {}, or built lists that do not ascend: it ends long \
+             loops early (lavapipe does, after 65 535 turns); use fewer lights, or smaller radii",
             self.lists.frame
         )))
     }

@@ -209,6 +209,26 @@ fn list_offsets_equal_their_twin_at_odd_sizes() {
     }
 }
 
+#[test]
+fn totals_beyond_32_bits_saturate_and_offsets_never_descend() {
+    // Few blocks, and more than one workgroup takes.
+    for clusters in [2000u32, 20_000] {
+        let room = Capacities { visible_clusters: clusters, light_indices: 16 };
+        let mut bench = Bench::new(ORTHO, box_grid([clusters, 1, 1]), &lights(10), room);
+        let state = bench.compact(&random_bits(u64::from(clusters), 1, 1));
+        bench.upload(|c| &c.buffers.list_lengths, &vec![1 << 24; state.visible as usize]);
+        bench.run(|r, frame| {
+            scan::light_offsets(r, frame, 0);
+            readback::states(r, frame);
+        });
+        let offsets = bench.download(|c| &c.buffers.list_offsets, clusters as usize + 1);
+        let twin: Vec<u32> =
+            (0..=u64::from(clusters)).map(|i| (i << 24).min(u64::from(u32::MAX)) as u32).collect();
+        assert!(offsets == twin, "{clusters} clusters");
+        assert_eq!(bench.engine.states(&bench.session, 0)[0].index_total, u32::MAX);
+    }
+}
+
 /// Two stages of known work, one of compute and one of rasterisation, each repeated as often as said; milliseconds.
 fn staged_times(bench: &mut Bench, compute: u32, raster: u32) -> [f64; 2] {
     let mut best = [f64::INFINITY; 2];

@@ -97,6 +97,7 @@ fn light_sets() -> Vec<Vec<PointLight>> {
     let one_place =
         |count| vec![PointLight { position: ahead, ..random_lights(1, 3, 1.0, |_| 6.0)[0] }; count];
     vec![
+        vec![],
         random_lights(1, 1, 1.0, |_| 3.0),
         random_lights(9, 2, 20.0, |_| 8.0),
         lights(1000),

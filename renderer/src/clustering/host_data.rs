@@ -1,0 +1,93 @@
+//! What the host writes for each frame: grids and views as shaders read them.
+
+use super::ClusteringSizes;
+use crate::assign;
+use crate::culling::ViewPlanes;
+use crate::geometry::{ClusterSpace, Grid};
+use crate::gpu_interface::{GridData, ViewData};
+use crate::views::{Pose, View};
+
+/// Rounding of positions and planes in f32 stays below this fraction of the far distance (measured: see the
+/// tests of the CPU twin), so radii grown by it never lose a light.
+const SLACK_PER_METRE: f32 = 8e-7;
+
+/// A grid as shaders read it.
+pub fn grid_data(grid: &Grid, lights: u32, sizes: &ClusteringSizes) -> GridData {
+    let dimensions = glam::DVec3::from_array(grid.dimensions.map(f64::from));
+    let (origin, cell, reach) = match grid.space {
+        ClusterSpace::Perspective { frustum: f, ratio } => (
+            glam::DVec3::new(f.x0, f.y0, -f.z1),
+            glam::DVec3::new(
+                (f.x1 - f.x0) / dimensions.x,
+                (f.y1 - f.y0) / dimensions.y,
+                ratio.ln_1p() / std::f64::consts::LN_2,
+            ),
+            -f.z0,
+        ),
+        ClusterSpace::Orthographic { min, max } => {
+            (min, (max - min) / dimensions, min.abs().max(max.abs()).max_element())
+        }
+    };
+    let (low, high) = bounds(grid);
+    GridData {
+        clustering_from_world: rigid_inverse(&grid.pose),
+        dimensions: grid.dimensions,
+        word_count: grid.cluster_count().div_ceil(32) as u32,
+        origin: origin.as_vec3().to_array(),
+        scale: (1.0 / cell).as_vec3().to_array(),
+        cell: cell.as_vec3().to_array(),
+        slack: SLACK_PER_METRE * reach as f32,
+        light_count: lights,
+        visible_capacity: sizes.capacities.visible_clusters,
+        index_capacity: sizes.capacities.light_indices,
+        mask_capacity: sizes.mask_words() as u32,
+        group_capacity: sizes.group_lights() as u32,
+        block_size: assign::block_size(grid.dimensions),
+        sort_passes: assign::sort_passes(lights),
+        tree_depth: assign::tree_depth(lights),
+        bounds_low: low.as_vec3().to_array(),
+        bounds_scale: (1024.0 / (high - low)).as_vec3().to_array(),
+    }
+}
+
+/// Lowest and highest corner of a grid in clustering space.
+fn bounds(grid: &Grid) -> (glam::DVec3, glam::DVec3) {
+    let last = grid.dimensions.map(|count| count - 1);
+    let (mut low, mut high) = (glam::DVec3::INFINITY, glam::DVec3::NEG_INFINITY);
+    for corner in 0..8 {
+        let cell = std::array::from_fn(|axis| if corner >> axis & 1 == 1 { last[axis] } else { 0 });
+        let (cell_low, cell_high) = grid.cell_bounds(cell);
+        (low, high) = (low.min(cell_low), high.max(cell_high));
+    }
+    (low, high)
+}
+
+/// What the lookup over all lights reads: no grid, every light.
+pub fn gridless_data(lights: u32) -> GridData {
+    GridData { light_count: lights, ..bytemuck::Zeroable::zeroed() }
+}
+
+fn rigid_inverse(pose: &Pose) -> [[f32; 4]; 4] {
+    pose.inverse().to_matrix().as_mat4().to_cols_array_2d()
+}
+
+/// A view as shaders read it; `grid` is what it looks lights up in, and no instance reaches farther than `reach` metres
+/// from the world's origin.
+pub fn view_data(view: &View, grid: Option<&Grid>, resolution: [u32; 2], reach: f64) -> ViewData {
+    let f = &view.frustum;
+    let view_from_world = view.pose.inverse().to_matrix();
+    let world_from_view = view.pose.to_matrix();
+    let clustering_from_view =
+        grid.map_or(glam::DMat4::IDENTITY, |grid| grid.pose.inverse().to_matrix() * world_from_view);
+    ViewData {
+        clip_from_world: (f.clip_from_view() * view_from_world).as_mat4().to_cols_array_2d(),
+        world_from_view: world_from_view.as_mat4().to_cols_array_2d(),
+        clustering_from_view: clustering_from_view.as_mat4().to_cols_array_2d(),
+        tangent_min: [f.x0 as f32, f.y0 as f32],
+        tangent_extent: [(f.x1 - f.x0) as f32, (f.y1 - f.y0) as f32],
+        resolution,
+        near: -f.z1 as f32,
+        far: -f.z0 as f32,
+        planes: ViewPlanes::new(view).for_device(reach),
+    }
+}

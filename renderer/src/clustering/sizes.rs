@@ -1,0 +1,152 @@
+//! Sizes of a clustering's buffers, and what a device must hold and dispatch for them: pure.
+
+use crate::assign::{self, Assigner};
+use crate::gpu_interface::{
+    ASSIGN_GROUP, BLOCK_WORDS, COUNTER_COUNT, Candidate, ClusterGroup, ClusteringState, DISPATCH_COUNT,
+    DispatchSize, LightNode, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS,
+};
+use crate::measure::Capacities;
+use crate::vk::Limits;
+use crate::{Error, Result};
+
+/// Everything that decides a clustering's buffer sizes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ClusteringSizes {
+    /// Clusters of the grid (largest of all frames); 0 for a method without clusters.
+    pub clusters: u64,
+    /// Lights (most of all frames).
+    pub lights: u32,
+    /// Entries.
+    pub capacities: Capacities,
+    /// How the lists are built.
+    pub assigner: Assigner,
+    /// Whether the atemporal run's buffers are there.
+    pub counting: bool,
+    /// Pixels of a view.
+    pub pixels: u64,
+}
+
+impl ClusteringSizes {
+    /// Words of the visibility bits.
+    pub fn words(&self) -> u64 {
+        self.clusters.div_ceil(32)
+    }
+
+    /// Words of the bits of all lists.
+    pub(super) fn mask_words(&self) -> u64 {
+        assign::mask_capacity(self.lights, self.capacities.visible_clusters)
+    }
+
+    /// Lights, where there are candidates among them.
+    fn culled_lights(&self) -> u64 {
+        if self.assigner == Assigner::Brute { 0 } else { u64::from(self.lights) }
+    }
+
+    /// Lights in the hierarchy.
+    fn tree_lights(&self) -> u64 {
+        if self.assigner == Assigner::Hierarchy { u64::from(self.lights) } else { 0 }
+    }
+
+    /// Groups of visible clusters that scatter makes.
+    fn groups(&self) -> u64 {
+        let groups = u64::from(self.capacities.visible_clusters.div_ceil(ASSIGN_GROUP));
+        if self.assigner == Assigner::Scatter { groups } else { 0 }
+    }
+
+    /// Lights of groups that are listed.
+    pub(super) fn group_lights(&self) -> u64 {
+        if self.assigner == Assigner::Scatter {
+            assign::group_capacity(self.lights, self.groups())
+        } else {
+            0
+        }
+    }
+
+    /// Counts of the digits of all blocks of the sort.
+    fn digit_counts(&self) -> u64 {
+        self.tree_lights().div_ceil(u64::from(SORT_BLOCK)) * u64::from(SORT_DIGITS)
+    }
+
+    /// Bytes of each buffer, in binding order of those that [`ClusteringBuffers`] makes.
+    pub(super) fn bytes(&self) -> [(&'static str, u64); 22] {
+        let counting = u64::from(self.counting);
+        let visible = u64::from(self.capacities.visible_clusters);
+        let nodes = if self.tree_lights() > 0 { assign::tree_nodes(self.lights) } else { 0 };
+        let blocks = self.scan_items().div_ceil(u64::from(SCAN_BLOCK));
+        [
+            ("light_spheres", 16 * u64::from(self.lights)),
+            ("cluster_bits", 4 * self.words()),
+            ("word_ranks", 4 * self.words()),
+            ("visible_clusters", 4 * visible),
+            ("block_sums", 4 * blocks),
+            ("list_lengths", 4 * visible),
+            ("list_offsets", 4 * (visible + 1)),
+            ("light_indices", 4 * u64::from(self.capacities.light_indices)),
+            ("state", size_of::<ClusteringState>() as u64),
+            ("dispatches", u64::from(DISPATCH_COUNT) * size_of::<DispatchSize>() as u64),
+            ("counters", 8 * COUNTER_COUNT as u64),
+            ("visible_fragments", 4 * visible * counting),
+            ("lights_per_fragment", 4 * (u64::from(self.lights) + 1) * counting),
+            ("light_masks", 4 * self.mask_words()),
+            ("sort_items", 2 * 8 * self.tree_lights()),
+            ("digit_counts", 4 * (self.digit_counts() + self.group_lights() / u64::from(ASSIGN_GROUP))),
+            ("tree_spheres", 16 * self.tree_lights()),
+            ("tree_lights", 4 * (self.tree_lights() + self.group_lights())),
+            (
+                "light_nodes",
+                size_of::<LightNode>() as u64 * nodes + size_of::<ClusterGroup>() as u64 * self.groups(),
+            ),
+            ("block_bits", 4 * u64::from(BLOCK_WORDS)),
+            ("light_bits", 4 * self.culled_lights().div_ceil(32)),
+            ("candidates", size_of::<Candidate>() as u64 * self.culled_lights()),
+        ]
+    }
+
+    /// Items of the longest prefix sum.
+    fn scan_items(&self) -> u64 {
+        let visible = u64::from(self.capacities.visible_clusters);
+        self.words().max(visible).max(self.digit_counts()).max(self.culled_lights().div_ceil(32))
+    }
+
+    /// The most entries that the device's buffers hold.
+    pub fn most(&self, limits: &Limits) -> Capacities {
+        let words = limits.max_storage_buffer_range / 4;
+        let entries = |words: u64| u32::try_from(words).unwrap_or(u32::MAX);
+        Capacities { visible_clusters: entries(words - 1), light_indices: entries(words) }
+    }
+
+    /// Refuses what the device cannot hold or dispatch, naming the largest fault.
+    pub fn check(&self, limits: &Limits) -> Result<()> {
+        for (name, size) in self.bytes() {
+            if size > limits.max_storage_buffer_range {
+                return Err(Error::Device(format!(
+                    "buffer {name} would need {size} bytes ({} clusters, {} lights, {} visible clusters, {} light \
+                     indices) but the device binds at most {}: use fewer lights or larger clusters",
+                    self.clusters,
+                    self.lights,
+                    self.capacities.visible_clusters,
+                    self.capacities.light_indices,
+                    limits.max_storage_buffer_range
+                )));
+            }
+        }
+        let [most_x, most_y, _] = limits.max_compute_work_group_count.map(u64::from);
+        let (lights, visible) = (self.lights, self.capacities.visible_clusters);
+        let tiles = u64::from(lights.div_ceil(ASSIGN_GROUP));
+        let groups = u64::from(visible.div_ceil(ASSIGN_GROUP));
+        let blocks = self.scan_items().div_ceil(u64::from(SCAN_BLOCK));
+        for (what, workgroups, most) in [
+            (format!("{lights} lights"), tiles, most_x.min(most_y)),
+            (format!("{visible} visible clusters"), groups, most_x),
+            (format!("{} clusters", self.clusters), blocks, most_x),
+        ] {
+            if workgroups > most {
+                return Err(Error::Device(format!(
+                    "{what} would need a dispatch of {workgroups} workgroups but the device allows {most}: use fewer \
+                     lights or larger clusters"
+                )));
+            }
+        }
+        Ok(())
+    }
+}

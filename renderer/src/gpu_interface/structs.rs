@@ -1,0 +1,235 @@
+//! Structs that host and shaders share.
+
+use crate::gpu_struct;
+
+gpu_struct! {
+    /// One rendering camera in one frame.
+    pub struct ViewData {
+        /// Reversed depth: 1 near, 0 far.
+        pub clip_from_world: [[f32; 4]; 4],
+        /// Rigid.
+        pub world_from_view: [[f32; 4]; 4],
+        /// Rigid; into the space of the clustering that this view looks up.
+        pub clustering_from_view: [[f32; 4]; 4],
+        /// Left and bottom tangent.
+        pub tangent_min: [f32; 2],
+        /// Right minus left, top minus bottom tangent.
+        pub tangent_extent: [f32; 2],
+        /// Width and height, pixels.
+        pub resolution: [u32; 2],
+        /// Metres, positive.
+        pub near: f32,
+        /// Metres, positive.
+        pub far: f32,
+        /// Inward unit normal and offset of each side, world space, moved out by what rounding may cost.
+        pub planes: [[f32; 4]; 6],
+    }
+}
+
+gpu_struct! {
+    /// One clustering in one frame: its grid, its lights, its capacities.
+    pub struct GridData {
+        /// Rigid.
+        pub clustering_from_world: [[f32; 4]; 4],
+        /// Dx, Dy, Dz.
+        pub dimensions: [u32; 3],
+        /// Words of the visibility bits: ceil(Dx*Dy*Dz / 32).
+        pub word_count: u32,
+        /// Perspective: left tangent, bottom tangent, near distance. Orthographic: lowest corner, metres.
+        pub origin: [f32; 3],
+        /// Cells per tangent and per log2 of depth; or cells per metre.
+        pub scale: [f32; 3],
+        /// Inverse of `scale`.
+        pub cell: [f32; 3],
+        /// Added to every light's radius, metres: covers rounding at cell boundaries.
+        pub slack: f32,
+        /// Lights in this frame.
+        pub light_count: u32,
+        /// Visible clusters that fit.
+        pub visible_capacity: u32,
+        /// Light indices that fit.
+        pub index_capacity: u32,
+        /// Words of light bits that fit, of all lists together.
+        pub mask_capacity: u32,
+        /// Lights of groups that fit, a multiple of a tile's.
+        pub group_capacity: u32,
+        /// Clusters of a block, along each axis.
+        pub block_size: [u32; 3],
+        /// Passes of the sort of the light hierarchy.
+        pub sort_passes: u32,
+        /// Depth of the light hierarchy at which its places are lights.
+        pub tree_depth: u32,
+        /// Lowest corner of the grid's bounds in clustering space, metres.
+        pub bounds_low: [f32; 3],
+        /// 1024 over the extent of those bounds, per metre.
+        pub bounds_scale: [f32; 3],
+    }
+}
+
+gpu_struct! {
+    /// A node of the light hierarchy: the centres of its lights lie in the box.
+    pub struct LightNode {
+        /// Clustering space, metres.
+        pub centre: [f32; 3],
+        /// Largest radius, metres.
+        pub radius: f32,
+        /// Metres.
+        pub half_extent: [f32; 3],
+    }
+}
+
+gpu_struct! {
+    /// A point light in world space.
+    pub struct LightData {
+        /// Metres.
+        pub position: [f32; 3],
+        /// Influence radius, metres.
+        pub r1: f32,
+        /// Linear colour.
+        pub tint: [f32; 3],
+        /// Intensity I.
+        pub intensity: f32,
+        /// Cut-off I0.
+        pub cutoff: f32,
+        /// Near radius, metres.
+        pub r0: f32,
+    }
+}
+
+gpu_struct! {
+    /// A metallic-roughness material.
+    pub struct MaterialData {
+        /// Linear colour and alpha.
+        pub base_color: [f32; 4],
+        /// Linear radiance.
+        pub emissive: [f32; 3],
+        /// 0 to 1.
+        pub metallic: f32,
+        /// Perceptual, 0 to 1.
+        pub roughness: f32,
+        /// Scale of the normal map's x and y.
+        pub normal_scale: f32,
+        /// 0 to 1.
+        pub occlusion_strength: f32,
+        /// Below this a masked fragment is discarded.
+        pub alpha_cutoff: f32,
+        /// Bit s: texture s reads the second uv set.
+        pub uv_slots: u32,
+        /// Two rows of an affine map per texture.
+        pub uv_rows: [[f32; 3]; 10],
+    }
+}
+
+gpu_struct! {
+    /// A primitive's place in the world.
+    pub struct InstanceData {
+        /// Affine.
+        pub world_from_object: [[f32; 4]; 4],
+        /// Into the materials.
+        pub material: u32,
+        /// Middle of the box around it, world space, metres.
+        pub box_center: [f32; 3],
+        /// Half the size of that box, metres.
+        pub box_half_extent: [f32; 3],
+    }
+}
+
+gpu_struct! {
+    /// An indirect draw, as the device takes it (VkDrawIndexedIndirectCommand).
+    pub struct DrawCommand {
+        /// Indices of the primitive.
+        pub index_count: u32,
+        /// Instances drawn.
+        pub instance_count: u32,
+        /// Into the indices.
+        pub first_index: u32,
+        /// Added to every index.
+        pub vertex_offset: i32,
+        /// Of a slot: into the instances. Of a command: into the drawn instances, times the views drawn at once.
+        pub first_instance: u32,
+    }
+}
+
+gpu_struct! {
+    /// How much a scene draws where the device culls.
+    pub struct DrawCounts {
+        /// Slots of opaque and masked geometry.
+        pub surfaces: u32,
+        /// Slots of transparent geometry, behind those.
+        pub transparents: u32,
+        /// Instances of all slots.
+        pub instances: u32,
+    }
+}
+
+gpu_struct! {
+    /// What the device found out about one clustering in one frame.
+    pub struct ClusteringState {
+        /// Visible clusters there are.
+        pub visible_total: u32,
+        /// Visible clusters that fitted.
+        pub visible: u32,
+        /// Light indices there are.
+        pub index_total: u32,
+        /// Lights that lists are made of: all, or those that may meet a visible cluster.
+        pub candidates: u32,
+        /// Words of light bits a list.
+        pub mask_words: u32,
+        /// Whether those of all lists fit; 0 where lights are counted and sorted instead.
+        pub masked: u32,
+        /// Tiles that scatter tests.
+        pub tiles: u32,
+        /// Whether the lights of groups are listed; 0 where that did not fit, and each group gets all candidates.
+        pub listed: u32,
+    }
+}
+
+gpu_struct! {
+    /// A group of visible clusters, a workgroup's.
+    pub struct ClusterGroup {
+        /// Lowest and highest cell, an axis each in two halves.
+        pub cells: [u32; 3],
+        /// Candidates whose cells meet those.
+        pub lights: u32,
+        /// How many of them are listed yet.
+        pub listed: u32,
+        /// Its first tile.
+        pub first_tile: u32,
+    }
+}
+
+gpu_struct! {
+    /// A light that may meet a visible cluster.
+    pub struct Candidate {
+        /// Which.
+        pub light: u32,
+        /// Lowest and highest cell that it may meet, an axis each in two halves.
+        pub cells: [u32; 3],
+    }
+}
+
+gpu_struct! {
+    /// Arguments of an indirect dispatch.
+    pub struct DispatchSize {
+        /// Workgroups.
+        pub x: u32,
+        /// Workgroups.
+        pub y: u32,
+        /// Workgroups.
+        pub z: u32,
+    }
+}
+
+gpu_struct! {
+    /// What is known of a pixel.
+    pub struct PixelData {
+        /// Along the view's -Z, metres; infinity where nothing was hit.
+        pub distance: f32,
+        /// Length of the list of its cluster.
+        pub light_count: u32,
+        /// Fragments in its cluster.
+        pub fragment_count: u32,
+        /// Linear cluster index; all ones where nothing was hit.
+        pub cluster_index: u32,
+    }
+}

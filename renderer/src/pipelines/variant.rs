@@ -1,0 +1,111 @@
+//! A variant as data: what shaders are specialised for, and the defines that follow.
+
+use super::Output;
+use crate::assign::Assigner;
+use crate::config::{Culling, Marking};
+use crate::draw_list::SurfaceKind;
+use crate::geometry::{Candidates, SphereTest};
+use crate::lights::Attenuation;
+use crate::methods::{MethodSpec, Sharing, Space};
+
+/// What a run's shaders are specialised for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Variant {
+    /// How lights are found.
+    pub method: MethodSpec,
+    /// Samples per pixel.
+    pub samples: u32,
+    /// Where instances are culled.
+    pub culling: Culling,
+    /// Whether geometry passes draw all views at once.
+    pub multiview: bool,
+    /// Marking from depth shades per sample, marking from geometry per fragment.
+    pub marking: Marking,
+    /// How the lists are built.
+    pub assigner: Assigner,
+    /// What decides who is on them.
+    pub test: SphereTest,
+    /// How lights fade.
+    pub attenuation: Attenuation,
+    /// Whether counters are compiled in: the atemporal run.
+    pub counting: bool,
+}
+
+impl Variant {
+    /// Whether fragments run once per sample, so that they lie where the depth buffer says.
+    pub(super) fn per_sample(&self) -> bool {
+        self.samples > 1 && self.marking == Marking::Depth
+    }
+
+    /// Whether a graphics pipeline draws all views at once: the prepass, and what is shaded in any order through the one
+    /// clustering that all views share.
+    pub(super) fn draws_all_views(&self, output: Output) -> bool {
+        let one_clustering = !matches!(self.method, MethodSpec::Clustered { sharing: Sharing::Indi, .. });
+        self.multiview
+            && match output {
+                Output::Depth => true,
+                Output::Shades(kind) => one_clustering && kind != SurfaceKind::Transparent,
+                Output::Marks(_) | Output::Counts(_) => false,
+            }
+    }
+
+    /// The defines of every shader of this variant.
+    pub(super) fn defines(&self) -> Defines {
+        let (lookup, space) = match self.method {
+            MethodSpec::AllLights => ("LOOKUP_ALL_LIGHTS", "SPACE_PERSPECTIVE"),
+            MethodSpec::Clustered { space: Space::Ortho { .. }, .. } => {
+                ("LOOKUP_CLUSTERED", "SPACE_ORTHOGRAPHIC")
+            }
+            MethodSpec::Clustered { .. } => ("LOOKUP_CLUSTERED", "SPACE_PERSPECTIVE"),
+        };
+        Defines(vec![])
+            .with("LOOKUP", lookup)
+            .with("SPACE", space)
+            .with("SAMPLES", self.samples)
+            .with("PER_SAMPLE", u32::from(self.per_sample()))
+            .with("COUNTERS", u32::from(self.counting))
+    }
+
+    /// Those of shaders that build lists.
+    pub(super) fn list_defines(&self) -> Defines {
+        let assigner = match self.assigner {
+            Assigner::Brute => "ASSIGN_BRUTE",
+            Assigner::Hierarchy => "ASSIGN_HIERARCHY",
+            Assigner::Scatter => "ASSIGN_SCATTER",
+        };
+        self.defines().with("ASSIGN", assigner)
+    }
+
+    /// Those of shaders that ask what a sphere meets besides.
+    pub(super) fn test_defines(&self) -> Defines {
+        let boxes = matches!(self.method, MethodSpec::Clustered { space: Space::Ortho { .. }, .. });
+        let nearest = matches!(self.test, SphereTest::Exact | SphereTest::Box);
+        // Planes are cheaper than the nearest point, but for boxes.
+        let half_spaces = self.test.asks(Candidates::HALF_SPACES) || nearest && !boxes;
+        let [edges, nearest_vertex, normals, vertices] =
+            [Candidates::EDGES, Candidates::NEAREST_VERTEX, Candidates::NORMALS, Candidates::VERTICES]
+                .map(|candidates| self.test.asks(candidates));
+        // The edges of boxes are their normals.
+        let bounded = half_spaces || normals || nearest || boxes && edges;
+        self.list_defines()
+            .with("TEST_HS", u32::from(half_spaces))
+            .with("TEST_SAT_E", u32::from(edges))
+            .with("TEST_SAT_N", u32::from(nearest_vertex))
+            .with("TEST_SAT_P", u32::from(normals))
+            .with("TEST_SAT_V", u32::from(vertices))
+            .with("TEST_NEAREST", u32::from(nearest))
+            .with("TEST_BOUNDED", u32::from(bounded))
+    }
+}
+
+/// Names and values that a shader is compiled with.
+#[derive(Debug, Clone)]
+pub(super) struct Defines(pub(super) Vec<(&'static str, String)>);
+
+impl Defines {
+    pub(super) fn with(&self, name: &'static str, value: impl ToString) -> Self {
+        let mut defines = self.0.clone();
+        defines.push((name, value.to_string()));
+        Self(defines)
+    }
+}
