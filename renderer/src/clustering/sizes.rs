@@ -111,8 +111,12 @@ impl ClusteringSizes {
     /// The most entries that the device's buffers hold.
     pub fn most(&self, limits: &Limits) -> Capacities {
         let words = limits.max_storage_buffer_range / 4;
+        let groups = u64::from(limits.max_compute_work_group_count[0]);
         let entries = |words: u64| u32::try_from(words).unwrap_or(u32::MAX);
-        Capacities { visible_clusters: entries(words - 1), light_indices: entries(words) }
+        Capacities {
+            visible_clusters: entries((words - 1).min(groups * u64::from(ASSIGN_GROUP))),
+            light_indices: entries(words),
+        }
     }
 
     /// Refuses what the device cannot hold or dispatch, naming the largest fault.
