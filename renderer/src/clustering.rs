@@ -37,7 +37,7 @@ pub struct ClusteringBuffers {
     pub list_offsets: Buffer,
     /// The lists.
     pub light_indices: Buffer,
-    /// [`ClusteringState`].
+    /// [`crate::gpu_interface::ClusteringState`].
     pub state: Buffer,
     /// Sizes of indirect dispatches.
     pub dispatches: Buffer,
@@ -118,7 +118,7 @@ pub fn device_buffer(context: &Arc<Context>, name: &str, size: u64) -> Result<Bu
 
 /// Buffers that all clusterings share.
 pub struct SharedBuffers<'a> {
-    /// [`ViewData`] of all views, a buffer per frame in flight.
+    /// [`crate::gpu_interface::ViewData`] of all views, a buffer per frame in flight.
     pub views: [&'a Buffer; SLOTS],
     /// The frame's lights.
     pub lights: &'a Buffer,

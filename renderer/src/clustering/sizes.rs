@@ -67,7 +67,7 @@ impl ClusteringSizes {
         self.tree_lights().div_ceil(u64::from(SORT_BLOCK)) * u64::from(SORT_DIGITS)
     }
 
-    /// Bytes of each buffer, in binding order of those that [`ClusteringBuffers`] makes.
+    /// Bytes of each buffer, in binding order of those that [`super::ClusteringBuffers`] makes.
     pub(super) fn bytes(&self) -> [(&'static str, u64); 22] {
         let counting = u64::from(self.counting);
         let visible = u64::from(self.capacities.visible_clusters);
