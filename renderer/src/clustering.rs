@@ -12,16 +12,16 @@ pub use sizes::ClusteringSizes;
 
 use crate::Result;
 use crate::frame::{DrawBuffers, SLOTS};
-use crate::gpu_interface::{BUFFERS, GridData, PixelData};
-use crate::layouts::{DescriptorSets, Layouts, write_buffer_set};
-use crate::vk::{Buffer, Context, Memory};
+use crate::gpu_interface::{BUFFERS, ClusteringState, GridData, PixelData, TEXELS};
+use crate::layouts::{BUFFER_SET, BufferSet, DescriptorSets, Layouts, write_buffer_set};
+use crate::vk::{Buffer, Context, Memory, TexelView};
 use ash::vk;
 use std::ops::Range;
 use std::sync::Arc;
 
 /// Buffers that shaders fill.
 pub struct ClusteringBuffers {
-    /// Lights in clustering space: centre, radius.
+    /// Lights, or candidates, in clustering space: centre, radius.
     pub light_spheres: Buffer,
     /// A bit per cluster.
     pub cluster_bits: Buffer,
@@ -63,7 +63,7 @@ pub struct ClusteringBuffers {
     pub light_nodes: Buffer,
     /// Blocks that hold visible clusters, a bit each.
     pub block_bits: Buffer,
-    /// Lights that may meet a visible cluster, a bit each.
+    /// Lights that may meet a visible cluster, a bit each; then how many there are before each word.
     pub light_bits: Buffer,
     /// Those lights.
     pub candidates: Buffer,
@@ -87,7 +87,7 @@ impl ClusteringBuffers {
             list_lengths: make("list_lengths")?,
             list_offsets: make("list_offsets")?,
             light_indices: make("light_indices")?,
-            state: make("state")?,
+            state: state_buffer(context)?,
             dispatches: make("dispatches")?,
             counters: make("counters")?,
             visible_fragments: make("visible_fragments")?,
@@ -109,11 +109,18 @@ impl ClusteringBuffers {
 /// Smallest buffer made, so that every binding has one.
 const MIN_BUFFER: u64 = 256;
 
-/// A device-local storage buffer that can be copied, filled and dispatched from.
+/// A device-local storage buffer that can be viewed as texels, copied, filled and dispatched from.
 pub fn device_buffer(context: &Arc<Context>, name: &str, size: u64) -> Result<Buffer> {
     use vk::BufferUsageFlags as U;
-    let usage = U::STORAGE_BUFFER | U::TRANSFER_SRC | U::TRANSFER_DST | U::INDIRECT_BUFFER;
+    let usage =
+        U::STORAGE_BUFFER | U::UNIFORM_TEXEL_BUFFER | U::TRANSFER_SRC | U::TRANSFER_DST | U::INDIRECT_BUFFER;
     Buffer::new(context, name, size.max(MIN_BUFFER).next_multiple_of(4), usage, Memory::Device)
+}
+
+fn state_buffer(context: &Arc<Context>) -> Result<Buffer> {
+    use vk::BufferUsageFlags as U;
+    let usage = U::STORAGE_BUFFER | U::UNIFORM_BUFFER | U::TRANSFER_SRC;
+    Buffer::new(context, "state", size_of::<ClusteringState>() as u64, usage, Memory::Device)
 }
 
 /// Buffers that all clusterings share.
@@ -122,8 +129,6 @@ pub struct SharedBuffers<'a> {
     pub views: [&'a Buffer; SLOTS],
     /// The frame's lights.
     pub lights: &'a Buffer,
-    /// The scene's materials.
-    pub materials: &'a Buffer,
     /// The scene's instances.
     pub instances: &'a Buffer,
     /// Its draw slots.
@@ -149,6 +154,7 @@ pub struct Clustering {
     /// Most visible clusters that fit.
     pub visible_capacity: u32,
     _sets: DescriptorSets,
+    _texels: [TexelView; TEXELS.len()],
 }
 
 impl Clustering {
@@ -161,13 +167,18 @@ impl Clustering {
         views: Range<usize>,
     ) -> Result<Self> {
         let buffers = ClusteringBuffers::new(context, sizes)?;
-        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
         let grid = || Buffer::new(context, "grid", size_of::<GridData>() as u64, usage, Memory::Upload);
         let grids = [grid()?, grid()?];
-        let kind = (vk::DescriptorType::STORAGE_BUFFER, BUFFERS.len() as u32);
-        let sets = DescriptorSets::new(context, "clustering", layouts.buffers, kind, SLOTS)?;
+        let texels = texels(context, shared, &buffers)?;
+        let sets = DescriptorSets::new(context, "clustering", layouts.buffers, &BUFFER_SET, SLOTS)?;
         for (slot, grid) in grids.iter().enumerate() {
-            write_buffer_set(context, sets.sets[slot], &handles(&buffers, shared, slot, grid));
+            let to = BufferSet {
+                buffers: storage(&buffers, shared, slot),
+                texels: &texels,
+                uniforms: [shared.views[slot], grid, &buffers.state],
+            };
+            write_buffer_set(context, sets.sets[slot], &to);
         }
         Ok(Self {
             buffers,
@@ -177,21 +188,38 @@ impl Clustering {
             word_count: 0,
             visible_capacity: sizes.capacities.visible_clusters,
             _sets: sets,
+            _texels: texels,
         })
     }
 }
 
-/// In the order of [`BUFFERS`].
-fn handles(
-    b: &ClusteringBuffers,
+/// In the order of [`TEXELS`].
+fn texels(
+    context: &Arc<Context>,
     shared: &SharedBuffers,
+    b: &ClusteringBuffers,
+) -> Result<[TexelView; TEXELS.len()]> {
+    let view = |buffer, place: usize| TexelView::new(context, buffer, TEXELS[place].1);
+    Ok([
+        view(shared.lights, 0)?,
+        view(shared.instances, 1)?,
+        view(&b.light_spheres, 2)?,
+        view(&b.light_indices, 3)?,
+        view(&b.light_masks, 4)?,
+        view(&b.block_bits, 5)?,
+        view(&b.candidates, 6)?,
+        view(&b.tree_spheres, 7)?,
+        view(&b.light_nodes, 8)?,
+    ])
+}
+
+/// In the order of [`BUFFERS`].
+fn storage<'a>(
+    b: &'a ClusteringBuffers,
+    shared: &SharedBuffers<'a>,
     slot: usize,
-    grid: &Buffer,
-) -> [vk::Buffer; BUFFERS.len()] {
+) -> [&'a Buffer; BUFFERS.len()] {
     [
-        shared.views[slot],
-        grid,
-        shared.lights,
         &b.light_spheres,
         &b.cluster_bits,
         &b.word_ranks,
@@ -206,7 +234,6 @@ fn handles(
         &b.visible_fragments,
         &b.lights_per_fragment,
         &b.pixels,
-        shared.materials,
         shared.instances,
         &b.light_masks,
         &b.sort_items,
@@ -222,5 +249,4 @@ fn handles(
         &shared.draws.commands,
         &shared.draws.drawn_instances,
     ]
-    .map(|buffer| buffer.handle)
 }

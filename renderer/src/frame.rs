@@ -217,12 +217,18 @@ fn cluster(r: &mut Recorder, frame: &Frame, clustering: usize) {
         mark::record(r, frame, clustering, view);
     }
     scan::compact(r, frame, clustering);
-    assign::transform_lights(r, frame, clustering);
-    if frame.assigner != Assigner::Brute {
-        cull_lights::cull_lights(r, frame, clustering);
-    }
-    if frame.assigner == Assigner::Hierarchy {
-        hierarchy::build_hierarchy(r, frame, clustering);
+    light_lists(r, frame, clustering);
+}
+
+/// The light lists of the visible clusters.
+pub fn light_lists(r: &mut Recorder, frame: &Frame, clustering: usize) {
+    match frame.assigner {
+        Assigner::Brute => assign::transform_lights(r, frame, clustering),
+        Assigner::Hierarchy => {
+            cull_lights::cull_lights(r, frame, clustering);
+            hierarchy::build_hierarchy(r, frame, clustering);
+        }
+        Assigner::Scatter => cull_lights::cull_lights(r, frame, clustering),
     }
     assign::count_lights(r, frame, clustering);
     scan::light_offsets(r, frame, clustering);

@@ -24,6 +24,7 @@ pub use structs::{
 };
 
 use crate::lights::Attenuation;
+use ash::vk;
 use std::fmt::Write as _;
 
 /// A storage buffer of descriptor set 0; the discriminant is its binding.
@@ -31,9 +32,6 @@ use std::fmt::Write as _;
 #[repr(u32)]
 #[allow(missing_docs)] // each is described by its row of BUFFERS
 pub enum Binding {
-    Views,
-    Grid,
-    Lights,
     LightSpheres,
     ClusterBits,
     WordRanks,
@@ -48,7 +46,6 @@ pub enum Binding {
     VisibleFragments,
     LightsPerFragment,
     Pixels,
-    Materials,
     Instances,
     LightMasks,
     SortItems,
@@ -66,10 +63,7 @@ pub enum Binding {
 }
 
 /// Every buffer as (binding, access, GLSL member).
-pub const BUFFERS: [(Binding, &str, &str); 32] = [
-    (Binding::Views, "readonly", "ViewData views[]"),
-    (Binding::Grid, "readonly", "GridData grid"),
-    (Binding::Lights, "readonly", "LightData lights[]"),
+pub const BUFFERS: [(Binding, &str, &str); 28] = [
     (Binding::LightSpheres, "", "vec4 light_spheres[]"),
     (Binding::ClusterBits, "", "uint cluster_bits[]"),
     (Binding::WordRanks, "", "uint word_ranks[]"),
@@ -78,13 +72,12 @@ pub const BUFFERS: [(Binding, &str, &str); 32] = [
     (Binding::ListLengths, "", "uint list_lengths[]"),
     (Binding::ListOffsets, "", "uint list_offsets[]"),
     (Binding::LightIndices, "", "uint light_indices[]"),
-    (Binding::State, "", "ClusteringState state"),
+    (Binding::State, "", "ClusteringState new_state"),
     (Binding::Dispatches, "", "DispatchSize dispatches[]"),
     (Binding::Counters, "", "uint counters[]"),
     (Binding::VisibleFragments, "", "uint visible_fragments[]"),
     (Binding::LightsPerFragment, "", "uint lights_per_fragment[]"),
     (Binding::Pixels, "", "PixelData pixels[]"),
-    (Binding::Materials, "readonly", "MaterialData materials[]"),
     (Binding::Instances, "readonly", "InstanceData instances[]"),
     (Binding::LightMasks, "", "uint light_masks[]"),
     (Binding::SortItems, "", "uvec2 sort_items[]"),
@@ -101,6 +94,28 @@ pub const BUFFERS: [(Binding, &str, &str); 32] = [
     (Binding::DrawnInstances, "", "uint drawn_instances[]"),
 ];
 
+/// Views of buffers as arrays of texels, as (GLSL declaration, format); bound behind [`BUFFERS`].
+///
+/// What a loop reads with an index of each thread's own is read through these: llvmpipe fetches a texel for all lanes at
+/// once, where it takes storage buffers lane by lane and word by word.
+pub const TEXELS: [(&str, vk::Format); 9] = [
+    ("textureBuffer light_texels", vk::Format::R32G32B32A32_SFLOAT),
+    ("textureBuffer instance_texels", vk::Format::R32G32B32A32_SFLOAT),
+    ("textureBuffer sphere_texels", vk::Format::R32G32B32A32_SFLOAT),
+    ("utextureBuffer index_texels", vk::Format::R32_UINT),
+    ("utextureBuffer mask_texels", vk::Format::R32_UINT),
+    ("utextureBuffer block_texels", vk::Format::R32_UINT),
+    ("utextureBuffer candidate_texels", vk::Format::R32G32B32A32_UINT),
+    ("textureBuffer tree_texels", vk::Format::R32G32B32A32_SFLOAT),
+    ("textureBuffer node_texels", vk::Format::R32G32B32A32_SFLOAT),
+];
+
+/// What all threads read alike, as GLSL members of uniform buffers; bound behind [`TEXELS`].
+///
+/// Of a uniform buffer llvmpipe reads a word once for all lanes, also where the flow of control has parted.
+/// `state` is what earlier dispatches wrote to `new_state`.
+pub const UNIFORMS: [&str; 3] = ["ViewData views[MAX_VIEWS]", "GridData grid", "ClusteringState state"];
+
 /// What scatter keeps in buffers of the hierarchy, which never runs beside it: devices bind few buffers.
 const ALIASES: [(Binding, &str); 3] = [
     (Binding::DigitCounts, "uint tile_groups[]"),
@@ -108,12 +123,14 @@ const ALIASES: [(Binding, &str); 3] = [
     (Binding::LightNodes, "ClusterGroup groups[]"),
 ];
 
-/// Descriptor set of the storage buffers.
+/// Descriptor set of the storage buffers, of what views some of them as texels, and of the uniform buffers.
 pub const SET_BUFFERS: u32 = 0;
-/// Descriptor set of a material's five textures.
+/// Descriptor set of a material: its five textures and its [`MaterialData`].
 pub const SET_MATERIAL: u32 = 1;
 /// Descriptor set of a view's depth image.
 pub const SET_DEPTH: u32 = 2;
+/// Rendering cameras of a frame, at most: a uniform buffer of 16 KiB, which every device binds, holds them.
+pub const MAX_VIEWS: u32 = 32;
 /// Threads of a workgroup of the prefix sum.
 pub const SCAN_GROUP: u32 = 256;
 /// Items that such a workgroup takes.
@@ -167,6 +184,9 @@ pub const SORT_DIGITS: u32 = 1 << SORT_BITS;
 /// Items that one thread of the sort takes.
 pub const SORT_BLOCK: u32 = 128;
 
+/// Bytes of a texel of four words.
+const TEXEL_BYTES: u32 = 16;
+
 /// A 64-bit counter of the atemporal run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
@@ -194,10 +214,11 @@ const COUNTERS: [(&str, Counter); COUNTER_COUNT] = [
     ("COUNTER_INTERSECTION_TESTS", Counter::IntersectionTests),
 ];
 
-const CONSTANTS: [(&str, u32); 26] = [
+const CONSTANTS: [(&str, u32); 30] = [
     ("SET_BUFFERS", SET_BUFFERS),
     ("SET_MATERIAL", SET_MATERIAL),
     ("SET_DEPTH", SET_DEPTH),
+    ("MAX_VIEWS", MAX_VIEWS),
     ("SCAN_GROUP", SCAN_GROUP),
     ("SCAN_BLOCK", SCAN_BLOCK),
     ("ASSIGN_GROUP", ASSIGN_GROUP),
@@ -221,6 +242,9 @@ const CONSTANTS: [(&str, u32); 26] = [
     ("SORT_BITS", SORT_BITS),
     ("SORT_DIGITS", SORT_DIGITS),
     ("SORT_BLOCK", SORT_BLOCK),
+    ("LIGHT_TEXELS", size_of::<LightData>() as u32 / TEXEL_BYTES),
+    ("INSTANCE_TEXELS", size_of::<InstanceData>() as u32 / TEXEL_BYTES),
+    ("NODE_TEXELS", size_of::<LightNode>() as u32 / TEXEL_BYTES),
 ];
 
 /// Names of what shader variants choose among; the value is the position.
@@ -275,6 +299,17 @@ pub fn glsl() -> String {
         let _ = writeln!(
             text,
             "layout(set = SET_BUFFERS, binding = {number}, scalar) {access} buffer Buffer{number} {{ {member}; }};"
+        );
+    }
+    for (position, (declaration, _)) in TEXELS.iter().enumerate() {
+        let number = BUFFERS.len() + position;
+        let _ = writeln!(text, "layout(set = SET_BUFFERS, binding = {number}) uniform {declaration};");
+    }
+    for (position, member) in UNIFORMS.iter().enumerate() {
+        let number = BUFFERS.len() + TEXELS.len() + position;
+        let _ = writeln!(
+            text,
+            "layout(set = SET_BUFFERS, binding = {number}, scalar) uniform Uniform{number} {{ {member}; }};"
         );
     }
     for (binding, member) in ALIASES {

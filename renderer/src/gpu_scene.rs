@@ -5,7 +5,7 @@ use crate::culling::WorldBox;
 use crate::draw_list::{Batch, Batches};
 use crate::draw_slots::DrawSlots;
 use crate::gpu_interface::{InstanceData, MaterialData};
-use crate::layouts::{DescriptorSets, Layouts, MATERIAL_TEXTURES};
+use crate::layouts::{DescriptorSets, Layouts, MATERIAL_SET, MATERIAL_TEXTURES};
 use crate::scene::{Image, Material, Sampler, Scene, TextureRef, TextureSlot, Wrap};
 use crate::vk::{self as gpu, Buffer, Context, SamplerCache};
 use ash::vk;
@@ -17,8 +17,6 @@ pub struct GpuScene {
     pub vertices: Buffer,
     /// 32-bit indices.
     pub indices: Buffer,
-    /// [`MaterialData`].
-    pub materials: Buffer,
     /// [`InstanceData`] in drawing order.
     pub instances: Buffer,
     /// What is drawn where the device culls, as [`DrawSlots::slots`] has it.
@@ -27,6 +25,7 @@ pub struct GpuScene {
     pub batches: Vec<Batch>,
     /// The textures of each material.
     pub material_sets: Vec<vk::DescriptorSet>,
+    _materials: Buffer,
     _sets: DescriptorSets,
     _textures: Vec<gpu::Image>,
     _samplers: SamplerCache,
@@ -41,23 +40,20 @@ impl GpuScene {
         (batches, slots): (&Batches, &DrawSlots),
     ) -> Result<Self> {
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
-        let materials: Vec<MaterialData> = scene.materials.iter().map(material_data).collect();
+        let texels = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;
+        let (materials, stride) = materials(context, &scene.materials)?;
         let placed = batches.instances.iter().zip(&batches.boxes);
         let instances: Vec<InstanceData> =
             placed.map(|(&i, bounds)| instance_data(scene, i as usize, bounds)).collect();
         let samplers = SamplerCache::new(context)?;
         let mut textures = gpu::upload_textures(context, &scene.images)?;
         textures.extend(gpu::upload_textures(context, &neutral_images())?);
-        let sets = DescriptorSets::new(
-            context,
-            "material",
-            layouts.material,
-            (vk::DescriptorType::COMBINED_IMAGE_SAMPLER, MATERIAL_TEXTURES),
-            scene.materials.len(),
-        )?;
-        for (material, &set) in scene.materials.iter().zip(&sets.sets) {
+        let sets =
+            DescriptorSets::new(context, "material", layouts.material, &MATERIAL_SET, scene.materials.len())?;
+        for (number, (material, &set)) in (0..).zip(scene.materials.iter().zip(&sets.sets)) {
             context.name(set, &material.name);
             write_textures(context, set, material, &textures, &samplers);
+            write_data(context, set, &materials, number * stride);
         }
         Ok(Self {
             vertices: Buffer::with_data(
@@ -72,16 +68,28 @@ impl GpuScene {
                 vk::BufferUsageFlags::INDEX_BUFFER,
                 &scene.indices,
             )?,
-            materials: Buffer::with_data(context, "materials", storage, &materials)?,
-            instances: Buffer::with_data(context, "instances", storage, &instances)?,
+            instances: Buffer::with_data(context, "instances", storage | texels, &instances)?,
             draw_slots: Buffer::with_data(context, "draw slots", storage, &slots.slots)?,
             batches: batches.batches.clone(),
             material_sets: sets.sets.clone(),
+            _materials: materials,
             _sets: sets,
             _textures: textures,
             _samplers: samplers,
         })
     }
+}
+
+/// The data of all materials, with the bytes from one to the next.
+fn materials(context: &Arc<Context>, materials: &[Material]) -> Result<(Buffer, u64)> {
+    let alignment = context.limits.min_uniform_buffer_offset_alignment.max(1) as usize;
+    let stride = size_of::<MaterialData>().next_multiple_of(alignment);
+    let mut bytes = vec![0u8; stride * materials.len()];
+    for (place, material) in bytes.chunks_mut(stride).zip(materials) {
+        place[..size_of::<MaterialData>()].copy_from_slice(bytemuck::bytes_of(&material_data(material)));
+    }
+    let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
+    Ok((Buffer::with_data(context, "materials", usage, &bytes)?, stride as u64))
 }
 
 fn material_data(material: &Material) -> MaterialData {
@@ -114,9 +122,9 @@ fn instance_data(scene: &Scene, index: usize, bounds: &WorldBox) -> InstanceData
     let instance = &scene.instances[index];
     InstanceData {
         world_from_object: instance.world_from_object.to_cols_array_2d(),
-        material: scene.primitives[instance.primitive as usize].material,
         box_center: bounds.center.as_vec3().to_array(),
         box_half_extent: bounds.half_extent.as_vec3().to_array(),
+        unused: [0.0; 2],
     }
 }
 
@@ -130,6 +138,19 @@ fn neutral_images() -> [Image; 2] {
         mips: vec![rgba.to_vec()],
     };
     [texel("white", [255; 4]), texel("flat normal", [128, 128, 255, 255])]
+}
+
+fn write_data(context: &Context, set: vk::DescriptorSet, materials: &Buffer, offset: u64) {
+    let info = [vk::DescriptorBufferInfo::default()
+        .buffer(materials.handle)
+        .offset(offset)
+        .range(size_of::<MaterialData>() as u64)];
+    let write = vk::WriteDescriptorSet::default()
+        .dst_set(set)
+        .dst_binding(MATERIAL_TEXTURES)
+        .descriptor_type(vk::DescriptorType::UNIFORM_BUFFER)
+        .buffer_info(&info);
+    unsafe { context.device.update_descriptor_sets(&[write], &[]) };
 }
 
 fn write_textures(

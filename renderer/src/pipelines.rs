@@ -81,7 +81,9 @@ pub struct AcceleratedPipelines {
     /// Lights that may meet one.
     pub cull_lights: Arc<Pipeline>,
     /// Prefix sum of their bits.
-    pub candidates: ScanPipelines,
+    pub rank_lights: ScanPipelines,
+    /// Those lights.
+    pub list_candidates: Arc<Pipeline>,
     /// Counts the candidates of each group of visible clusters, and lists them.
     pub scatter_groups: [Arc<Pipeline>; 2],
     /// Prefix sum of the tiles they fill.
@@ -186,7 +188,8 @@ impl PipelineStore {
         Ok(AcceleratedPipelines {
             mark_blocks: self.compute("cull/mark_blocks.comp", defines)?,
             cull_lights: self.compute("cull/cull_lights.comp", tests)?,
-            candidates: self.scan(tests, "SCAN_LIGHTS")?,
+            rank_lights: self.scan(defines, "SCAN_LIGHTS")?,
+            list_candidates: self.compute("cull/list_candidates.comp", tests)?,
             scatter_groups: self.both("assign/scatter_groups.comp", defines, "FILL_GROUPS")?,
             group_tiles: self.scan(defines, "SCAN_GROUPS")?,
             count_digits: self.compute("build/count_digits.comp", tests)?,

@@ -27,7 +27,7 @@ void main()
     uint depth = cut, place = root, tests = 0u;
     while (first_light(depth, place) < lights_there) {
         ++tests;
-        bool hit = may_meet(cell, light_nodes[node_index(depth, place)]);
+        bool hit = may_meet(cell, light_node(depth, place));
         if (hit && depth + 1u < grid.tree_depth) {
             ++depth;
             place *= TREE_WIDTH;
@@ -38,7 +38,7 @@ void main()
             uint end = min(first + TREE_WIDTH, lights_there);
             // A leaf is no loop: lavapipe ends a shader's loops after 65 535 turns of all of them.
             [[unroll]] for (uint i = 0u; i < TREE_WIDTH; ++i)
-                if (first + i < end && meets(cell, tree_spheres[first + i]))
+                if (first + i < end && meets(cell, texelFetch(tree_texels, int(first + i))))
                     add_light(visible, tree_lights[first + i]);
             tests += end - first;
         }

@@ -23,7 +23,7 @@ Hull hull_of_lights(uint first)
     uint items = (grid.sort_passes - 1u & 1u) * grid.light_count;
     for (uint i = first; i < min(first + TREE_WIDTH, state.candidates); ++i) {
         uint number = sort_items[items + i].y;
-        vec4 sphere = light_spheres[candidates[number].light];
+        vec4 sphere = texelFetch(sphere_texels, int(number));
         tree_spheres[i] = sphere;
         tree_lights[i] = number;
         include(hull, sphere.xyz, sphere.xyz, sphere.w);
@@ -35,7 +35,7 @@ Hull hull_of_nodes(uint depth, uint first)
 {
     Hull hull = Hull(vec3(1e38), vec3(-1e38), 0.0);
     for (uint place = first; place < first + TREE_WIDTH && first_light(depth, place) < state.candidates; ++place) {
-        LightNode node = light_nodes[node_index(depth, place)];
+        LightNode node = light_node(depth, place);
         include(hull, node.centre - node.half_extent, node.centre + node.half_extent, node.radius);
     }
     return hull;
@@ -56,5 +56,5 @@ void main()
     vec3 half_extent = 0.5 * (hull.high - hull.low);
     vec3 reach = abs(centre) + half_extent;
     float slack = NODE_SLACK * (max(max(reach.x, reach.y), reach.z) + hull.radius);
-    light_nodes[node_index(depth, place)] = LightNode(centre, hull.radius + slack, half_extent + slack);
+    light_nodes[node_index(depth, place)] = LightNode(centre, hull.radius + slack, half_extent + slack, 0.0);
 }

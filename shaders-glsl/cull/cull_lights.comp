@@ -3,6 +3,7 @@
 #version 460
 #include "lib/blocks.glsl"
 #include "lib/cell_range.glsl"
+#include "lib/light_sphere.glsl"
 
 layout(local_size_x = ASSIGN_GROUP) in;
 
@@ -11,7 +12,7 @@ bool may_meet_visible(vec4 sphere)
     CellRange range = cells_near(sphere);
     if (is_empty(range))
         return false;
-    return may_hold_visible(uvec3(range.low) / grid.block_size, uvec3(range.high) / grid.block_size);
+    return may_hold_visible(block_of(uvec3(range.low)), block_of(uvec3(range.high)));
 }
 
 void main()
@@ -22,6 +23,6 @@ void main()
         return;
     uint bits = 0u;
     for (uint light = first; light < min(first + 32u, grid.light_count); ++light)
-        bits |= uint(may_meet_visible(light_spheres[light])) << (light - first);
+        bits |= uint(may_meet_visible(sphere_of_light(light))) << (light - first);
     light_bits[word] = bits;
 }

@@ -20,7 +20,7 @@ void main()
     uint visible = gl_GlobalInvocationID.x;
     if (visible < state.visible) {
         uvec3 cell = cell_of_linear(visible_clusters[visible]);
-        mark_block(cell / grid.block_size);
+        mark_block(block_of(cell));
         for (uint axis = 0u; axis < 3u; ++axis) {
             atomicMin(lowest[axis], cell[axis]);
             atomicMax(highest[axis], cell[axis]);

@@ -7,8 +7,7 @@ layout(early_fragment_tests) in;
 
 layout(location = 0) in vec4 uv;
 layout(location = 1) in vec4 color;
-layout(location = 2) flat in uint material_index;
-layout(location = 3) in vec3 normal;
+layout(location = 2) in vec3 normal;
 
 layout(location = 0) out vec4 out_color;
 
@@ -20,5 +19,5 @@ void main()
     vec3 n = normalize(normal);
     float lamp = abs(dot(n, mat3(view.world_from_view) * towards_camera));
     float light = 0.25 + 0.45 * lamp + 0.3 * (0.5 + 0.5 * n.y);
-    out_color = vec4(base_color(materials[material_index], at, color).rgb * light, light);
+    out_color = vec4(base_color(at, color).rgb * light, light);
 }

@@ -1,6 +1,6 @@
 // The influence volumes of the lights: an instance a light, a sphere of rings and segments each.
 #version 460
-#include "generated/gpu_interface.glsl"
+#include "lib/light.glsl"
 
 layout(location = 0) out vec3 out_normal;
 layout(location = 1) out vec3 out_towards_camera;
@@ -17,7 +17,7 @@ void main()
     float colatitude = radians(180.0) * float(corner.y) / float(SPHERE_RINGS);
     vec3 normal = vec3(sin(colatitude) * sin(longitude), cos(colatitude), sin(colatitude) * cos(longitude));
     ViewData view = views[push.view];
-    LightData light = lights[gl_InstanceIndex];
+    LightData light = light_of(gl_InstanceIndex);
     vec3 position = light.position + light.r1 * normal;
     out_normal = normal;
     out_towards_camera = view.world_from_view[3].xyz - position;

@@ -4,12 +4,10 @@
 
 layout(location = 0) in vec4 uv;
 layout(location = 1) in vec4 color;
-layout(location = 2) flat in uint material_index;
 
 void main()
 {
     TextureCoordinates at = texture_coordinates(uv);
-    MaterialData material = materials[material_index];
-    if (base_color(material, at, color).a < material.alpha_cutoff)
+    if (base_color(at, color).a < material.alpha_cutoff)
         discard;
 }

@@ -14,15 +14,14 @@ layout(location = 4) in vec2 uv1;
 layout(location = 5) in vec4 color;
 layout(location = 0) out vec4 out_uv;
 layout(location = 1) out vec4 out_color;
-layout(location = 2) flat out uint out_material;
 #endif
 #if VARYINGS >= 2
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
-layout(location = 3) out vec3 out_normal;
-layout(location = 4) out vec4 out_tangent;
+layout(location = 2) out vec3 out_normal;
+layout(location = 3) out vec4 out_tangent;
 #if VIEWS
-layout(location = 5) flat out uint out_view;
+layout(location = 4) flat out uint out_view;
 #endif
 #endif
 
@@ -38,6 +37,14 @@ uint drawn_instance(uint place)
 #endif
 }
 
+// As in InstanceData.
+mat4 world_from_object_of(uint instance)
+{
+    int texel = int(INSTANCE_TEXELS * instance);
+    return mat4(texelFetch(instance_texels, texel), texelFetch(instance_texels, texel + 1),
+                texelFetch(instance_texels, texel + 2), texelFetch(instance_texels, texel + 3));
+}
+
 void main()
 {
 #if VIEWS
@@ -48,13 +55,12 @@ void main()
     uint view = push.view;
     uint instance = drawn_instance(gl_InstanceIndex);
 #endif
-    mat4 world_from_object = instances[instance].world_from_object;
+    mat4 world_from_object = world_from_object_of(instance);
     vec4 world = world_from_object * vec4(position, 1.0);
     gl_Position = views[view].clip_from_world * world;
 #if VARYINGS >= 1
     out_uv = vec4(uv0, uv1);
     out_color = color;
-    out_material = instances[instance].material;
 #endif
 #if VARYINGS >= 2
     // The cofactor matrix carries normals through any affine map, mirroring included.

@@ -17,6 +17,13 @@ uint block_column(uvec2 block, uint level)
     return before + (block.x >> level) + side * (block.y >> level);
 }
 
+// The block of a cell: cell / block size, by a product, for processors divide integers slowly. Half a cell keeps rounding
+// away from where blocks meet.
+uvec3 block_of(uvec3 cell)
+{
+    return uvec3((vec3(cell) + 0.5) * grid.block_scale);
+}
+
 void mark_block(uvec3 block)
 {
     uint bit = 1u << block.z;
@@ -27,13 +34,18 @@ void mark_block(uvec3 block)
     }
 }
 
+uint blocks_of(uvec2 block, uint level)
+{
+    return texelFetch(block_texels, int(block_column(block, level))).x;
+}
+
 // Whether some block between two holds a visible cluster; true also where one near them does.
 bool may_hold_visible(uvec3 low, uvec3 high)
 {
     uint span = max(high.x - low.x, high.y - low.y);
     // The finest level at which the range is at most two columns wide.
     uint level = span < 2u ? 0u : uint(findMSB(span - 1u)) + 1u;
-    uint columns = block_bits[block_column(low.xy, level)] | block_bits[block_column(uvec2(high.x, low.y), level)] |
-                   block_bits[block_column(uvec2(low.x, high.y), level)] | block_bits[block_column(high.xy, level)];
+    uint columns = blocks_of(low.xy, level) | blocks_of(uvec2(high.x, low.y), level) |
+                   blocks_of(uvec2(low.x, high.y), level) | blocks_of(high.xy, level);
     return (columns & 0xFFFFFFFFu << low.z & 0xFFFFFFFFu >> (31u - high.z)) != 0u;
 }

@@ -13,7 +13,7 @@ uint light_of_number(uint number)
 #if ASSIGN == ASSIGN_BRUTE
     return number;
 #else
-    return candidates[number].light;
+    return texelFetch(candidate_texels, int(number)).x;
 #endif
 }
 

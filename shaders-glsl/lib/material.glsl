@@ -8,6 +8,7 @@ layout(set = SET_MATERIAL, binding = 1) uniform sampler2D metallic_roughness_tex
 layout(set = SET_MATERIAL, binding = 2) uniform sampler2D normal_texture;
 layout(set = SET_MATERIAL, binding = 3) uniform sampler2D occlusion_texture;
 layout(set = SET_MATERIAL, binding = 4) uniform sampler2D emissive_texture;
+layout(set = SET_MATERIAL, binding = 5, scalar) uniform Material { MaterialData material; };
 
 // Both sets of texture coordinates of a fragment, and how they change from pixel to pixel.
 struct TextureCoordinates {
@@ -22,7 +23,7 @@ TextureCoordinates texture_coordinates(vec4 uv)
 }
 
 // One of the five textures: its uv set through its affine transform.
-vec4 sample_texture(sampler2D image, MaterialData material, uint slot, TextureCoordinates at)
+vec4 sample_texture(sampler2D image, uint slot, TextureCoordinates at)
 {
     bool second = (material.uv_slots >> slot & 1u) != 0u;
     vec3 row0 = material.uv_rows[2u * slot];
@@ -34,7 +35,7 @@ vec4 sample_texture(sampler2D image, MaterialData material, uint slot, TextureCo
     return textureGrad(image, uv, dx, dy);
 }
 
-vec4 base_color(MaterialData material, TextureCoordinates at, vec4 color)
+vec4 base_color(TextureCoordinates at, vec4 color)
 {
-    return material.base_color * color * sample_texture(base_color_texture, material, 0u, at);
+    return material.base_color * color * sample_texture(base_color_texture, 0u, at);
 }

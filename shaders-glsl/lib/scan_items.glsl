@@ -12,29 +12,29 @@ DispatchSize groups_for(uint items, uint group_size)
 const DispatchSize NO_DISPATCH = DispatchSize(0u, 1u, 1u);
 
 // What finds the pairs of light and cluster runs once where they are kept as bits, else twice.
-void publish_meeting(DispatchSize size)
+void publish_meeting(DispatchSize size, bool masked)
 {
     dispatches[DISPATCH_MEET] = size;
-    if (state.masked != 0u)
+    if (masked)
         size = NO_DISPATCH;
     dispatches[DISPATCH_MEET_AGAIN] = size;
 }
 
-// Lists of up to `lights` lights each, for all visible clusters.
-void publish_lists(uint lights)
+// Lists of up to `lights` lights each, for so many visible clusters.
+void publish_lists(uint lights, uint visible)
 {
     uint words = (lights + 31u) / 32u;
 #if ASSIGN == ASSIGN_BRUTE
     words += words & 1u; // whole tiles
 #endif
-    bool masked = words == 0u || state.visible <= grid.mask_capacity / words;
-    state.candidates = lights;
-    state.mask_words = words;
-    state.masked = uint(masked);
-    DispatchSize lists = groups_for(state.visible, ASSIGN_GROUP);
+    bool masked = words == 0u || visible <= grid.mask_capacity / words;
+    new_state.candidates = lights;
+    new_state.mask_words = words;
+    new_state.masked = uint(masked);
+    DispatchSize lists = groups_for(visible, ASSIGN_GROUP);
     dispatches[DISPATCH_LISTS] = lists;
     DispatchSize masked_lists = lists;
-    DispatchSize unmasked_lists = DispatchSize(min(state.visible, LIST_ROW), (state.visible + LIST_ROW - 1u) / LIST_ROW, 1u);
+    DispatchSize unmasked_lists = DispatchSize(min(visible, LIST_ROW), (visible + LIST_ROW - 1u) / LIST_ROW, 1u);
     if (masked)
         unmasked_lists = NO_DISPATCH;
     else
@@ -42,9 +42,9 @@ void publish_lists(uint lights)
     dispatches[DISPATCH_MASKED] = masked_lists;
     dispatches[DISPATCH_UNMASKED] = unmasked_lists;
 #if ASSIGN == ASSIGN_BRUTE
-    publish_meeting(DispatchSize(lists.x, (lights + ASSIGN_GROUP - 1u) / ASSIGN_GROUP, 1u));
+    publish_meeting(DispatchSize(lists.x, (lights + ASSIGN_GROUP - 1u) / ASSIGN_GROUP, 1u), masked);
 #elif ASSIGN == ASSIGN_HIERARCHY
-    publish_meeting(DispatchSize(lists.x, TREE_SPLIT, 1u));
+    publish_meeting(DispatchSize(lists.x, TREE_SPLIT, 1u), masked);
 #endif
 }
 
@@ -63,39 +63,27 @@ void emit(uint word, uint rank)
 
 void publish(uint total)
 {
-    state.visible_total = total;
-    state.visible = min(total, grid.visible_capacity);
-    dispatches[DISPATCH_LISTS] = groups_for(state.visible, ASSIGN_GROUP);
-    dispatches[DISPATCH_SCAN] = groups_for(state.visible, SCAN_BLOCK);
+    new_state.visible_total = total;
+    uint visible = min(total, grid.visible_capacity);
+    new_state.visible = visible;
+    dispatches[DISPATCH_LISTS] = groups_for(visible, ASSIGN_GROUP);
+    dispatches[DISPATCH_SCAN] = groups_for(visible, SCAN_BLOCK);
 #if ASSIGN == ASSIGN_BRUTE
-    publish_lists(grid.light_count);
+    publish_lists(grid.light_count, visible);
 #endif
 }
 
 #elif SCAN_ITEMS == SCAN_LIGHTS
 
-#include "lib/cell_range.glsl"
-#include "lib/halves.glsl"
-
 uint scan_length() { return (grid.light_count + 31u) / 32u; }
 uint scan_item(uint i) { return uint(bitCount(light_bits[i])); }
 
-// Lists the candidates by ascending light.
-void emit(uint word, uint rank)
-{
-    for (uint bits = light_bits[word]; bits != 0u; bits &= bits - 1u) {
-        uint light = word * 32u + uint(findLSB(bits));
-        CellRange range = cells_near(light_spheres[light]);
-        uvec3 cells;
-        for (uint axis = 0u; axis < 3u; ++axis)
-            cells[axis] = pack_range(uint(range.low[axis]), uint(range.high[axis]));
-        candidates[rank++] = Candidate(light, cells);
-    }
-}
+// Ranks the words: the candidates before each lie behind the bits.
+void emit(uint word, uint rank) { light_bits[scan_length() + word] = rank; }
 
 void publish(uint total)
 {
-    publish_lists(total);
+    publish_lists(total, state.visible);
 #if ASSIGN == ASSIGN_HIERARCHY
     uint blocks = (total + SORT_BLOCK - 1u) / SORT_BLOCK;
     dispatches[DISPATCH_SORT] = groups_for(blocks, ASSIGN_GROUP);
@@ -140,9 +128,9 @@ void publish(uint total)
     bool listed = total <= grid.group_capacity / ASSIGN_GROUP;
     if (!listed)
         total = scan_length() * ((state.candidates + ASSIGN_GROUP - 1u) / ASSIGN_GROUP);
-    state.tiles = total;
-    state.listed = uint(listed);
-    publish_meeting(DispatchSize(min(total, TILE_ROW), (total + TILE_ROW - 1u) / TILE_ROW, 1u));
+    new_state.tiles = total;
+    new_state.listed = uint(listed);
+    publish_meeting(DispatchSize(min(total, TILE_ROW), (total + TILE_ROW - 1u) / TILE_ROW, 1u), state.masked != 0u);
     if (!listed)
         dispatches[DISPATCH_GROUPS] = NO_DISPATCH;
 }
@@ -155,7 +143,7 @@ void emit(uint visible, uint offset) { list_offsets[visible] = offset; }
 
 void publish(uint total)
 {
-    state.index_total = total;
+    new_state.index_total = total;
     list_offsets[state.visible] = total;
 }
 

@@ -16,11 +16,10 @@ layout(early_fragment_tests) in;
 
 layout(location = 0) in vec4 uv;
 layout(location = 1) in vec4 color;
-layout(location = 2) flat in uint material_index;
-layout(location = 3) in vec3 normal;
-layout(location = 4) in vec4 tangent;
+layout(location = 2) in vec3 normal;
+layout(location = 3) in vec4 tangent;
 #if VIEWS
-layout(location = 5) flat in uint view_index;
+layout(location = 4) flat in uint view_index;
 #endif
 
 layout(location = 0) out vec4 out_color;
@@ -40,12 +39,12 @@ uint view_of_fragment()
 #endif
 }
 
-vec3 shading_normal(MaterialData material, TextureCoordinates at)
+vec3 shading_normal(TextureCoordinates at)
 {
     float facing = gl_FrontFacing ? 1.0 : -1.0;
     vec3 n = normalize(normal);
     vec3 t = tangent.xyz - n * dot(n, tangent.xyz);
-    vec3 mapped = sample_texture(normal_texture, material, 2u, at).xyz * 2.0 - 1.0;
+    vec3 mapped = sample_texture(normal_texture, 2u, at).xyz * 2.0 - 1.0;
     mapped.xy *= material.normal_scale;
     if (dot(t, t) < 1e-12)
         return facing * n;
@@ -54,13 +53,13 @@ vec3 shading_normal(MaterialData material, TextureCoordinates at)
     return facing * normalize(t * mapped.x + b * mapped.y + n * mapped.z);
 }
 
-Surface surface_at(MaterialData material, TextureCoordinates at, ViewData view, vec3 base)
+Surface surface_at(TextureCoordinates at, ViewData view, vec3 base)
 {
     vec3 position = (view.world_from_view * vec4(view_position(view, fragment_pixel(), gl_FragCoord.z), 1.0)).xyz;
-    vec4 metallic_roughness = sample_texture(metallic_roughness_texture, material, 1u, at);
+    vec4 metallic_roughness = sample_texture(metallic_roughness_texture, 1u, at);
     float metallic = clamp(material.metallic * metallic_roughness.b, 0.0, 1.0);
     float roughness = clamp(material.roughness * metallic_roughness.g, 0.05, 1.0);
-    return Surface(position, shading_normal(material, at), normalize(view.world_from_view[3].xyz - position),
+    return Surface(position, shading_normal(at), normalize(view.world_from_view[3].xyz - position),
                    base * (1.0 - metallic), mix(vec3(0.04), base, metallic), roughness * roughness);
 }
 
@@ -70,8 +69,7 @@ void main()
     if (is_background())
         discard;
     ViewData view = views[view_of_fragment()];
-    MaterialData material = materials[material_index];
-    vec4 base = base_color(material, at, color);
+    vec4 base = base_color(at, color);
     LightCursor cursor;
     if (!find_lights(view, fragment_pixel(), gl_FragCoord.z, cursor)) {
         count(COUNTER_FRAGMENTS_SHADED, 1u);
@@ -79,10 +77,10 @@ void main()
         out_color = vec4(MISSING_CLUSTER, 1.0);
         return;
     }
-    float occlusion = sample_texture(occlusion_texture, material, 3u, at).r;
+    float occlusion = sample_texture(occlusion_texture, 3u, at).r;
     vec3 radiance = AMBIENT * base.rgb * mix(1.0, occlusion, material.occlusion_strength);
-    radiance += material.emissive * sample_texture(emissive_texture, material, 4u, at).rgb;
-    radiance += shade_lights(surface_at(material, at, view, base.rgb), cursor);
+    radiance += material.emissive * sample_texture(emissive_texture, 4u, at).rgb;
+    radiance += shade_lights(surface_at(at, view, base.rgb), cursor);
     // Half floats end at 65504; a light grazed at R0 may exceed that.
     out_color = vec4(min(radiance, vec3(65504.0)), TRANSPARENT != 0 ? base.a : 1.0);
 }

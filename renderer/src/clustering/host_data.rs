@@ -42,7 +42,7 @@ pub fn grid_data(grid: &Grid, lights: u32, sizes: &ClusteringSizes) -> GridData 
         index_capacity: sizes.capacities.light_indices,
         mask_capacity: sizes.mask_words() as u32,
         group_capacity: sizes.group_lights() as u32,
-        block_size: assign::block_size(grid.dimensions),
+        block_scale: assign::block_size(grid.dimensions).map(|clusters| 1.0 / clusters as f32),
         sort_passes: assign::sort_passes(lights),
         tree_depth: assign::tree_depth(lights),
         bounds_low: low.as_vec3().to_array(),

@@ -2,8 +2,8 @@
 
 use crate::assign::{self, Assigner};
 use crate::gpu_interface::{
-    ASSIGN_GROUP, BLOCK_WORDS, COUNTER_COUNT, Candidate, ClusterGroup, ClusteringState, DISPATCH_COUNT,
-    DispatchSize, LightNode, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS,
+    ASSIGN_GROUP, BLOCK_WORDS, COUNTER_COUNT, Candidate, ClusterGroup, DISPATCH_COUNT, DispatchSize,
+    LightNode, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS,
 };
 use crate::measure::Capacities;
 use crate::vk::Limits;
@@ -68,7 +68,7 @@ impl ClusteringSizes {
     }
 
     /// Bytes of each buffer, in binding order of those that [`super::ClusteringBuffers`] makes.
-    pub(super) fn bytes(&self) -> [(&'static str, u64); 22] {
+    pub(super) fn bytes(&self) -> [(&'static str, u64); 21] {
         let counting = u64::from(self.counting);
         let visible = u64::from(self.capacities.visible_clusters);
         let nodes = if self.tree_lights() > 0 { assign::tree_nodes(self.lights) } else { 0 };
@@ -82,7 +82,6 @@ impl ClusteringSizes {
             ("list_lengths", 4 * visible),
             ("list_offsets", 4 * (visible + 1)),
             ("light_indices", 4 * u64::from(self.capacities.light_indices)),
-            ("state", size_of::<ClusteringState>() as u64),
             ("dispatches", u64::from(DISPATCH_COUNT) * size_of::<DispatchSize>() as u64),
             ("counters", 8 * COUNTER_COUNT as u64),
             ("visible_fragments", 4 * visible * counting),
@@ -97,7 +96,7 @@ impl ClusteringSizes {
                 size_of::<LightNode>() as u64 * nodes + size_of::<ClusterGroup>() as u64 * self.groups(),
             ),
             ("block_bits", 4 * u64::from(BLOCK_WORDS)),
-            ("light_bits", 4 * self.culled_lights().div_ceil(32)),
+            ("light_bits", 2 * 4 * self.culled_lights().div_ceil(32)),
             ("candidates", size_of::<Candidate>() as u64 * self.culled_lights()),
         ]
     }

@@ -53,8 +53,8 @@ gpu_struct! {
         pub mask_capacity: u32,
         /// Lights of groups that fit, a multiple of a tile's.
         pub group_capacity: u32,
-        /// Clusters of a block, along each axis.
-        pub block_size: [u32; 3],
+        /// Blocks a cluster, along each axis.
+        pub block_scale: [f32; 3],
         /// Passes of the sort of the light hierarchy.
         pub sort_passes: u32,
         /// Depth of the light hierarchy at which its places are lights.
@@ -67,7 +67,7 @@ gpu_struct! {
 }
 
 gpu_struct! {
-    /// A node of the light hierarchy: the centres of its lights lie in the box.
+    /// A node of the light hierarchy, two texels of four floats: the centres of its lights lie in the box.
     pub struct LightNode {
         /// Clustering space, metres.
         pub centre: [f32; 3],
@@ -75,11 +75,13 @@ gpu_struct! {
         pub radius: f32,
         /// Metres.
         pub half_extent: [f32; 3],
+        /// Fills the last texel.
+        pub unused: f32,
     }
 }
 
 gpu_struct! {
-    /// A point light in world space.
+    /// A point light in world space, three texels of four floats.
     pub struct LightData {
         /// Metres.
         pub position: [f32; 3],
@@ -93,6 +95,8 @@ gpu_struct! {
         pub cutoff: f32,
         /// Near radius, metres.
         pub r0: f32,
+        /// Fills the last texel.
+        pub unused: [f32; 2],
     }
 }
 
@@ -121,16 +125,16 @@ gpu_struct! {
 }
 
 gpu_struct! {
-    /// A primitive's place in the world.
+    /// A primitive's place in the world, six texels of four floats.
     pub struct InstanceData {
         /// Affine.
         pub world_from_object: [[f32; 4]; 4],
-        /// Into the materials.
-        pub material: u32,
         /// Middle of the box around it, world space, metres.
         pub box_center: [f32; 3],
         /// Half the size of that box, metres.
         pub box_half_extent: [f32; 3],
+        /// Fills the last texel.
+        pub unused: [f32; 2],
     }
 }
 
@@ -199,7 +203,7 @@ gpu_struct! {
 }
 
 gpu_struct! {
-    /// A light that may meet a visible cluster.
+    /// A light that may meet a visible cluster, a texel of four words.
     pub struct Candidate {
         /// Which.
         pub light: u32,

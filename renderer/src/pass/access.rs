@@ -5,15 +5,15 @@ use ash::vk;
 /// How a pass uses a resource.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Use {
-    /// Storage buffer read by a compute shader.
+    /// Buffer read by a compute shader.
     ComputeRead,
     /// Storage buffer written (and perhaps read) by a compute shader.
     ComputeWrite,
     /// Image sampled by a compute shader.
     ComputeSample,
-    /// Storage buffer read by a vertex shader.
+    /// Buffer read by a vertex shader.
     VertexRead,
-    /// Storage buffer read by a fragment shader.
+    /// Buffer read by a fragment shader.
     FragmentRead,
     /// Storage buffer written (and perhaps read) by a fragment shader.
     FragmentWrite,
@@ -33,6 +33,13 @@ pub enum Use {
     HostRead,
 }
 
+/// A buffer read by a shader as what it is bound as: storage, texels or uniform.
+const READ: vk::AccessFlags2 = vk::AccessFlags2::from_raw(
+    vk::AccessFlags2::SHADER_STORAGE_READ.as_raw()
+        | vk::AccessFlags2::SHADER_SAMPLED_READ.as_raw()
+        | vk::AccessFlags2::UNIFORM_READ.as_raw(),
+);
+
 impl Use {
     fn stage(self) -> vk::PipelineStageFlags2 {
         use vk::PipelineStageFlags2 as S;
@@ -51,8 +58,8 @@ impl Use {
     fn access(self) -> vk::AccessFlags2 {
         use vk::AccessFlags2 as A;
         match self {
-            Self::ComputeRead | Self::VertexRead | Self::FragmentRead => A::SHADER_STORAGE_READ,
-            Self::ComputeWrite | Self::FragmentWrite => A::SHADER_STORAGE_READ | A::SHADER_STORAGE_WRITE,
+            Self::ComputeRead | Self::VertexRead | Self::FragmentRead => READ,
+            Self::ComputeWrite | Self::FragmentWrite => READ | A::SHADER_STORAGE_WRITE,
             Self::ComputeSample => A::SHADER_SAMPLED_READ,
             Self::Indirect => A::INDIRECT_COMMAND_READ,
             Self::TransferRead => A::TRANSFER_READ,

@@ -2,14 +2,16 @@
 //!
 //! ```text
 //! visible_clusters ──mark_blocks──> block_bits ─┐
-//! light_spheres ────────────────────────────────┴─cull_lights──> light_bits ──scan──> candidates
+//! lights ───────────────────────────────────────┴─cull_lights──> light_bits ──scan──> ranks
+//! ranks, lights ──list_candidates──> candidates, light_spheres
 //! ```
 
 use super::assign::indirect;
-use super::scan::candidates;
+use super::scan::rank_lights;
 use crate::frame::Frame;
 use crate::gpu_interface::{ASSIGN_GROUP, DISPATCH_LISTS};
 use crate::pass::{Access, Recorder, Use};
+use crate::vk::Pipeline;
 use ash::vk;
 
 /// Drops the lights whose cells hold nothing visible.
@@ -28,13 +30,24 @@ pub fn cull_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
             (&[&b.visible_clusters], &writes),
         );
         r.access(&[
-            Access::buffer(b.light_spheres.handle, Use::ComputeRead),
+            Access::buffer(frame.lights.handle, Use::ComputeRead),
             Access::buffer(b.block_bits.handle, Use::ComputeRead),
             Access::buffer(b.light_bits.handle, Use::ComputeWrite),
         ]);
-        frame.bind_clustering(r, vk::PipelineBindPoint::COMPUTE, &pipelines.cull_lights, clustering);
-        let groups = frame.light_count.div_ceil(32).div_ceil(ASSIGN_GROUP);
-        unsafe { r.context.device.cmd_dispatch(r.commands, groups, 1, 1) };
-        candidates(r, frame, clustering);
+        per_word(r, frame, clustering, &pipelines.cull_lights);
+        rank_lights(r, frame, clustering);
+        r.access(&[
+            Access::buffer(b.light_bits.handle, Use::ComputeRead),
+            Access::buffer(b.light_spheres.handle, Use::ComputeWrite),
+            Access::buffer(b.candidates.handle, Use::ComputeWrite),
+        ]);
+        per_word(r, frame, clustering, &pipelines.list_candidates);
     });
+}
+
+/// Runs a pipeline with a thread for each word of light bits.
+fn per_word(r: &Recorder, frame: &Frame, clustering: usize, pipeline: &Pipeline) {
+    frame.bind_clustering(r, vk::PipelineBindPoint::COMPUTE, pipeline, clustering);
+    let groups = frame.light_count.div_ceil(32).div_ceil(ASSIGN_GROUP);
+    unsafe { r.context.device.cmd_dispatch(r.commands, groups, 1, 1) };
 }

@@ -184,19 +184,18 @@ impl Frame<'_> {
 
     /// Tells shaders the number of the view.
     pub fn push_view(&self, r: &Recorder, view: usize) {
-        let stages = vk::ShaderStageFlags::ALL;
-        let view = (view as u32).to_ne_bytes();
-        unsafe {
-            r.context.device.cmd_push_constants(r.commands, self.layouts.pipeline, stages, 0, &view);
-        }
+        self.push(r, 0, view as u32);
     }
 
     /// Pushes the number of the step, for pipelines that run several times in a stage.
     pub fn push_step(&self, r: &Recorder, step: u32) {
-        let (stages, step) = (vk::ShaderStageFlags::ALL, step.to_ne_bytes());
-        unsafe {
-            r.context.device.cmd_push_constants(r.commands, self.layouts.pipeline, stages, 4, &step);
-        }
+        self.push(r, 4, step);
+    }
+
+    fn push(&self, r: &Recorder, offset: u32, value: u32) {
+        let (layout, stages) = (self.layouts.pipeline, vk::ShaderStageFlags::ALL);
+        let bytes = value.to_ne_bytes();
+        unsafe { r.context.device.cmd_push_constants(r.commands, layout, stages, offset, &bytes) };
     }
 
     /// Binds a pipeline with the buffers of clustering `clustering`.

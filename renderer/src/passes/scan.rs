@@ -48,12 +48,12 @@ pub fn light_offsets(r: &mut Recorder, frame: &Frame, clustering: usize) {
     });
 }
 
-/// Lists the lights whose bits are set.
-pub(super) fn candidates(r: &mut Recorder, frame: &Frame, clustering: usize) {
+/// Ranks the words of light bits.
+pub(super) fn rank_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
     let b = &frame.clusterings[clustering].buffers;
-    let touched = [&b.light_bits, &b.light_spheres, &b.candidates];
+    let touched = [&b.light_bits];
     let items = Items::Count(frame.light_count.div_ceil(32));
-    scan(r, frame, clustering, &frame.pipelines.accelerated().candidates, (items, &touched));
+    scan(r, frame, clustering, &frame.pipelines.accelerated().rank_lights, (items, &touched));
 }
 
 /// Gives groups of visible clusters the tiles that their lights fill.

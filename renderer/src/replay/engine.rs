@@ -170,7 +170,6 @@ impl Engine {
         let shared = SharedBuffers {
             views: [&session.slots[0].views, &session.slots[1].views],
             lights: &self.lights,
-            materials: &session.scene.materials,
             instances: &session.scene.instances,
             draw_slots: &session.scene.draw_slots,
             draw_order: [&session.slots[0].draw_order, &session.slots[1].draw_order],
@@ -360,6 +359,7 @@ fn light_data(light: &PointLight) -> LightData {
         intensity: light.intensity,
         cutoff: light.cutoff,
         r0: light.r0,
+        unused: [0.0; 2],
     }
 }
 

@@ -5,9 +5,9 @@ use crate::config::Config;
 use crate::draw_list::{Batches, DrawList};
 use crate::draw_slots::{DrawSlots, SlotOrder};
 use crate::frame::{DrawBuffers, Layer, SLOTS, ViewTargets};
-use crate::gpu_interface::{DrawCommand, DrawCounts, ViewData};
+use crate::gpu_interface::{DrawCommand, DrawCounts, MAX_VIEWS, ViewData};
 use crate::gpu_scene::GpuScene;
-use crate::layouts::{DescriptorSets, Layouts};
+use crate::layouts::{DEPTH_SET, DescriptorSets, Layouts};
 use crate::pass::{FrameTracker, Timestamps};
 use crate::passes::readback::STATE_BYTES;
 use crate::pipelines::{self, COLOR_FORMAT, DEPTH_FORMAT, PipelineStore};
@@ -53,7 +53,7 @@ impl Slot {
         context.name(pool, "frame");
         context.name(commands, "frame");
         context.name(fence, "frame");
-        let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let uniform = vk::BufferUsageFlags::UNIFORM_BUFFER;
         Ok(Self {
             context: context.clone(),
             pool,
@@ -63,8 +63,8 @@ impl Slot {
             views: Buffer::new(
                 context,
                 "views",
-                (views * size_of::<ViewData>()) as u64,
-                storage,
+                u64::from(MAX_VIEWS) * size_of::<ViewData>() as u64,
+                uniform,
                 Memory::Upload,
             )?,
             states: Buffer::new(
@@ -157,18 +157,13 @@ impl Session {
         let context = Context::new(&options)?;
         pipelines::check_device(&context, config)?;
         check_resolution(&context, config.resolution)?;
+        check_views(views)?;
         let layouts = Arc::new(Layouts::new(&context)?);
         let shaders = shader_library(config)?;
         let batches = Batches::new(scene);
         let draw_slots = DrawSlots::new(&batches);
         let gpu_scene = GpuScene::new(&context, &layouts, scene, (&batches, &draw_slots))?;
-        let depth_sets = DescriptorSets::new(
-            &context,
-            "depth",
-            layouts.depth,
-            (vk::DescriptorType::SAMPLED_IMAGE, 1),
-            views,
-        )?;
+        let depth_sets = DescriptorSets::new(&context, "depth", layouts.depth, &DEPTH_SET, views)?;
         let targets = targets(&context, config, &depth_sets.sets)?;
         Ok(Self {
             slots: [
@@ -213,6 +208,15 @@ fn draw_buffers(context: &Arc<Context>, views: usize, counts: DrawCounts) -> Res
 pub fn shader_library(config: &Config) -> Result<ShaderLibrary> {
     let include = ("generated/gpu_interface.glsl".to_owned(), gpu_interface::glsl());
     ShaderLibrary::new(config.shaders.as_deref(), vec![include])
+}
+
+fn check_views(views: usize) -> Result<()> {
+    match views <= MAX_VIEWS as usize {
+        true => Ok(()),
+        false => {
+            Err(Error::Input(format!("{views} views are more than the {MAX_VIEWS} that a frame may have")))
+        }
+    }
 }
 
 fn check_resolution(context: &Context, [width, height]: [u32; 2]) -> Result<()> {

@@ -26,7 +26,7 @@ pub enum Memory {
 pub struct Buffer {
     /// For commands and descriptors.
     pub handle: vk::Buffer,
-    /// Bytes, at least 4.
+    /// Bytes, at least 16.
     pub size: u64,
     name: String,
     allocation: Option<Allocation>,
@@ -36,7 +36,7 @@ pub struct Buffer {
 }
 
 impl Buffer {
-    /// A buffer of `size` bytes, with undefined contents. A size of 0 is allowed and rounded up to 4, for Vulkan
+    /// A buffer of `size` bytes, with undefined contents. A size of 0 is allowed and rounded up to a texel, for Vulkan
     /// knows no empty buffers and an empty list should need no special case.
     ///
     /// # Errors
@@ -48,7 +48,7 @@ impl Buffer {
         usage: vk::BufferUsageFlags,
         memory: Memory,
     ) -> Result<Self> {
-        let size = size.max(4);
+        let size = size.max(16);
         check_size(context, name, size, usage)?;
         let info =
             vk::BufferCreateInfo::default().size(size).usage(usage).sharing_mode(vk::SharingMode::EXCLUSIVE);
@@ -96,6 +96,11 @@ impl Buffer {
             })?;
         }
         Ok(buffer)
+    }
+
+    /// As it was made with, for messages.
+    pub(super) fn name(&self) -> &str {
+        &self.name
     }
 
     /// Copies `data` to byte `offset`. The device sees it in work submitted afterwards.

@@ -28,6 +28,8 @@ pub struct Limits {
     pub timestamp_valid_bits: u32,
     /// Largest range of a storage buffer binding, bytes.
     pub max_storage_buffer_range: u64,
+    /// Texels that a buffer may be viewed as.
+    pub max_texel_buffer_elements: u64,
     /// Largest buffer, bytes.
     pub max_buffer_size: u64,
     /// Largest single allocation, bytes.
@@ -143,6 +145,7 @@ pub(super) fn read_limits(instance: &ash::Instance, physical: vk::PhysicalDevice
         timestamp_period_ns: f64::from(base.timestamp_period),
         timestamp_valid_bits: families.get(family as usize).map_or(0, |f| f.timestamp_valid_bits),
         max_storage_buffer_range: base.max_storage_buffer_range.into(),
+        max_texel_buffer_elements: base.max_texel_buffer_elements.into(),
         max_buffer_size: v13.max_buffer_size,
         max_memory_allocation_size: v11.max_memory_allocation_size,
         min_storage_buffer_offset_alignment: base.min_storage_buffer_offset_alignment,

@@ -20,6 +20,7 @@ mod sampler;
 mod shader;
 #[cfg(test)]
 mod tests;
+mod texel_view;
 mod texture;
 mod validation;
 
@@ -31,6 +32,7 @@ pub use limits::{DeviceInfo, Limits};
 pub use pipeline::{GraphicsDesc, Pipeline, compute_pipeline, graphics_pipeline};
 pub use sampler::SamplerCache;
 pub use shader::ShaderLibrary;
+pub use texel_view::TexelView;
 pub use texture::upload_textures;
 pub use validation::ValidationLog;
 

@@ -3,7 +3,7 @@
 use super::*;
 use crate::config::Lighting;
 use crate::cpu;
-use crate::frame::Eyes;
+use crate::frame::{Eyes, light_lists};
 use crate::geometry::{ClusterSpace, Frustum, Grid};
 use crate::methods::{Sharing, Space};
 use crate::passes::{assign, depth, readback, scan};
@@ -124,6 +124,36 @@ impl Bench {
             readback::states(r, frame);
         });
         self.engine.states(&self.session, 0)[0]
+    }
+}
+
+/// Light lists: their offsets, then their lights.
+#[derive(PartialEq, Eq)]
+struct Lists {
+    offsets: Vec<u32>,
+    indices: Vec<u32>,
+}
+
+impl Lists {
+    /// The lights of one list.
+    fn of(&self, list: usize) -> &[u32] {
+        &self.indices[self.offsets[list] as usize..self.offsets[list + 1] as usize]
+    }
+}
+
+impl Bench {
+    /// The lists of what [`Self::compact`] made visible.
+    fn lists(&mut self) -> Lists {
+        self.run(|r, frame| {
+            crate::passes::lights::record(r, frame);
+            light_lists(r, frame, 0);
+            readback::states(r, frame);
+        });
+        let state = self.engine.states(&self.session, 0)[0];
+        Lists {
+            offsets: self.download(|c| &c.buffers.list_offsets, state.visible as usize + 1),
+            indices: self.download(|c| &c.buffers.light_indices, state.index_total.max(1) as usize),
+        }
     }
 }
 

@@ -3,15 +3,7 @@
 use super::*;
 use crate::config::{Assign, Test};
 use crate::gpu_interface::GridData;
-use crate::passes::{cull_lights, hierarchy};
 use std::mem::offset_of;
-
-/// What a way of assignment made of one case: offsets of the lists, then the lists.
-#[derive(PartialEq, Eq)]
-struct Lists {
-    offsets: Vec<u32>,
-    indices: Vec<u32>,
-}
 
 /// Whether there is room for the bits of lists and the lights of groups; where there is none, lights are counted and
 /// sorted, and each group tests all candidates.
@@ -42,33 +34,9 @@ fn lists_of(
                 grid.write(offset_of!(GridData, group_capacity) as u64, &[0u32]);
             }
             bench.compact(bits);
-            bench.lists(assign)
+            bench.lists()
         })
         .collect()
-}
-
-impl Bench {
-    fn lists(&mut self, assign: Assign) -> Lists {
-        self.run(|r, frame| {
-            crate::passes::lights::record(r, frame);
-            assign::transform_lights(r, frame, 0);
-            if assign != Assign::Brute {
-                cull_lights::cull_lights(r, frame, 0);
-            }
-            if assign == Assign::Hierarchy {
-                hierarchy::build_hierarchy(r, frame, 0);
-            }
-            assign::count_lights(r, frame, 0);
-            scan::light_offsets(r, frame, 0);
-            assign::assign_lights(r, frame, 0);
-            readback::states(r, frame);
-        });
-        let state = self.engine.states(&self.session, 0)[0];
-        Lists {
-            offsets: self.download(|c| &c.buffers.list_offsets, state.visible as usize + 1),
-            indices: self.download(|c| &c.buffers.light_indices, state.index_total.max(1) as usize),
-        }
-    }
 }
 
 pub(super) fn random_lights(

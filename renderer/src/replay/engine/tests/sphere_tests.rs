@@ -40,20 +40,9 @@ impl Case {
         let config = Config { test: vec![Test::Named(test)], ..config() };
         let mut bench = Bench::with_config(&config, method, self.grid, &self.lights, room);
         bench.compact(&self.bits);
-        bench.run(|r, frame| {
-            crate::passes::lights::record(r, frame);
-            assign::transform_lights(r, frame, 0);
-            assign::count_lights(r, frame, 0);
-            scan::light_offsets(r, frame, 0);
-            assign::assign_lights(r, frame, 0);
-            readback::states(r, frame);
-        });
-        let state = bench.engine.states(&bench.session, 0)[0];
-        assert!(state.index_total > 1000, "the case assigns next to nothing");
-        let offsets = bench.download(|c| &c.buffers.list_offsets, self.visible.len() + 1);
-        let indices = bench.download(|c| &c.buffers.light_indices, state.index_total as usize);
-        let at = |list: usize| offsets[list] as usize;
-        (0..self.visible.len()).map(|list| indices[at(list)..at(list + 1)].to_vec()).collect()
+        let lists = bench.lists();
+        assert!(lists.indices.len() > 1000, "the case assigns next to nothing");
+        (0..self.visible.len()).map(|list| lists.of(list).to_vec()).collect()
     }
 }
 
