@@ -41,19 +41,19 @@ pub struct AssignCounts {
     pub tiles: u32,
 }
 
-// Costs in tests of brute force, which takes about 1.3 ns a test on two cores of lavapipe, where `bench assign` measured
+// Costs in tests of brute force, which takes about 0.8 ns a test on two cores of lavapipe, where `bench assign` measured
 // them.
 
 /// Of culling a light.
-const COST_CULL: f64 = 45.0;
+const COST_CULL: f64 = 12.0;
 /// Of the dispatches that follow culling.
-const COST_SCATTER: f64 = 1e6;
-/// Of a test by scatter: tiles are not full.
-const COST_TILE: f64 = 2.0 * (ASSIGN_GROUP * ASSIGN_GROUP) as f64;
+const COST_SCATTER: f64 = 1.2e6;
+/// Of a tile of scatter, with the candidates that it takes to find it and the bits that it leaves: five times its tests.
+const COST_TILE: f64 = 5.0 * (ASSIGN_GROUP * ASSIGN_GROUP) as f64;
 /// Of the dispatches that build the hierarchy.
-const COST_HIERARCHY: f64 = 2e6;
+const COST_HIERARCHY: f64 = 4e6;
 /// Of a test by the hierarchy, whose threads each read nodes of their own.
-const COST_NODE: f64 = 40.0;
+const COST_NODE: f64 = 60.0;
 /// Tests of the hierarchy for each light that it finds.
 const NODES_FOUND: f64 = 7.0;
 /// Tests of the hierarchy for each cluster on the way down.

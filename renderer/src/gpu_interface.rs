@@ -145,8 +145,9 @@ pub const TILE_ROW: u32 = 1 << 15;
 pub const LIST_ROW: u32 = 1 << 15;
 /// Blocks of clusters along x and y, at most; along z there are up to 32, a bit each.
 pub const BLOCK_COLUMNS: u32 = 16;
-/// Words of all columns of blocks, with the coarser ones behind them, two by two joined, down to one.
-pub const BLOCK_WORDS: u32 = (4 * BLOCK_COLUMNS * BLOCK_COLUMNS - 1) / 3;
+/// Words of all columns of blocks, with the coarser ones behind them, two by two joined, down to one; then the highest
+/// and the lowest visible cell.
+pub const BLOCK_WORDS: u32 = (4 * BLOCK_COLUMNS * BLOCK_COLUMNS - 1) / 3 + 6;
 /// Groups that one thread takes a candidate to.
 pub const GROUP_CHUNK: u32 = 16;
 /// Threads of a cluster, among which the hierarchy's subtrees are dealt out.

@@ -1,8 +1,10 @@
 // Which lights may meet a visible cluster: those whose range of cells meets a block that holds one. A thread takes the
-// lights of a word of bits, which are then ranked as those of clusters are.
+// lights of a word of bits, which are then ranked as those of clusters are. Most lights lie outside what the visible
+// clusters span together, and are told by its planes, for a tenth of the cost.
 #version 460
 #include "lib/blocks.glsl"
 #include "lib/cell_range.glsl"
+#include "lib/intersect.glsl"
 #include "lib/light_sphere.glsl"
 
 layout(local_size_x = ASSIGN_GROUP) in;
@@ -17,12 +19,18 @@ bool may_meet_visible(vec4 sphere)
 
 void main()
 {
+    CellBounds visible = range_bounds(lowest_visible(), highest_visible());
     uint word = gl_GlobalInvocationID.x;
     uint first = word * 32u;
     if (first >= grid.light_count)
         return;
-    uint bits = 0u;
+    uint near = 0u;
     for (uint light = first; light < min(first + 32u, grid.light_count); ++light)
-        bits |= uint(may_meet_visible(sphere_of_light(light))) << (light - first);
+        near |= uint(may_meet_range(visible, sphere_of_light(light))) << (light - first);
+    uint bits = 0u;
+    for (; near != 0u; near &= near - 1u) {
+        uint place = uint(findLSB(near));
+        bits |= uint(may_meet_visible(sphere_of_light(first + place))) << place;
+    }
     light_bits[word] = bits;
 }

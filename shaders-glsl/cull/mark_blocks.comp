@@ -1,5 +1,5 @@
-// Marks the blocks that hold visible clusters; a workgroup takes a group of them. For scatter it also makes the group,
-// with the range of its cells.
+// Marks the blocks that hold visible clusters, and finds the range of cells of all; a workgroup takes a group of clusters.
+// For scatter it also makes the group, with the range of its cells.
 #version 460
 #include "lib/blocks.glsl"
 #include "lib/cluster_space.glsl"
@@ -27,12 +27,14 @@ void main()
         }
     }
     barrier();
+    if (thread > 0u || gl_WorkGroupID.x * ASSIGN_GROUP >= state.visible)
+        return;
+    uvec3 low = uvec3(lowest[0], lowest[1], lowest[2]), high = uvec3(highest[0], highest[1], highest[2]);
+    include_visible(low, high);
 #if ASSIGN == ASSIGN_SCATTER
-    if (thread == 0u) {
-        uvec3 cells;
-        for (uint axis = 0u; axis < 3u; ++axis)
-            cells[axis] = pack_range(lowest[axis], highest[axis]);
-        groups[gl_WorkGroupID.x] = ClusterGroup(cells, 0u, 0u, 0u);
-    }
+    uvec3 cells;
+    for (uint axis = 0u; axis < 3u; ++axis)
+        cells[axis] = pack_range(low[axis], high[axis]);
+    groups[gl_WorkGroupID.x] = ClusterGroup(cells, 0u, 0u, 0u);
 #endif
 }

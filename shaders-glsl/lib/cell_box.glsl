@@ -6,9 +6,14 @@ struct CellBounds {
     vec3 centre, half_extent;
 };
 
-CellBounds cell_bounds(uvec3 cell)
+// Rounding of distances from a range of cells against those from its cells, in parts of the coordinates.
+const float RANGE_ROUNDING = 4e-6;
+
+// What cells from one to another fill together.
+CellBounds range_bounds(uvec3 first, uvec3 last)
 {
-    precise CellBounds bounds = CellBounds(grid.origin + grid.cell * (vec3(cell) + 0.5), 0.5 * grid.cell);
+    precise vec3 middle = 0.5 * vec3(first + last + 1u);
+    precise CellBounds bounds = CellBounds(grid.origin + grid.cell * middle, 0.5 * (grid.cell * vec3(last - first + 1u)));
     return bounds;
 }
 
@@ -16,6 +21,13 @@ bool within_planes(CellBounds cell, vec4 sphere)
 {
     precise vec3 outside = abs(sphere.xyz - cell.centre) - cell.half_extent;
     return max(max(outside.x, outside.y), outside.z) <= sphere.w;
+}
+
+// False only where within_planes is false for every cell of the range that `range` bounds.
+bool may_be_within_planes(CellBounds range, vec4 sphere)
+{
+    vec3 reach = abs(range.centre) + range.half_extent + abs(sphere.xyz);
+    return within_planes(range, vec4(sphere.xyz, sphere.w + RANGE_ROUNDING * (max(max(reach.x, reach.y), reach.z) + sphere.w)));
 }
 
 // As within_planes, for some point of a box around the centre.

@@ -11,23 +11,27 @@ struct CellBounds {
 #endif
 };
 
+// Rounding of distances from the planes of a range against those of its cells, in parts of the coordinates.
+const float RANGE_ROUNDING = 4e-6;
+
 float slice_depth(uint slice)
 {
     precise float depth = -grid.origin.z * exp2(float(slice) * grid.cell.z);
     return depth;
 }
 
-CellBounds cell_bounds(uvec3 cell)
+// What cells from one to another fill together.
+CellBounds range_bounds(uvec3 first, uvec3 last)
 {
-    precise vec2 low = grid.origin.xy + grid.cell.xy * vec2(cell.xy);
-    precise vec2 high = grid.origin.xy + grid.cell.xy * vec2(cell.xy + 1u);
+    precise vec2 low = grid.origin.xy + grid.cell.xy * vec2(first.xy);
+    precise vec2 high = grid.origin.xy + grid.cell.xy * vec2(last.xy + 1u);
     CellBounds bounds;
     bounds.left = normalize(vec2(1.0, low.x));
     bounds.right = -normalize(vec2(1.0, high.x));
     bounds.bottom = normalize(vec2(1.0, low.y));
     bounds.top = -normalize(vec2(1.0, high.y));
-    bounds.z_near = slice_depth(cell.z);
-    bounds.z_far = slice_depth(cell.z + 1u);
+    bounds.z_near = slice_depth(first.z);
+    bounds.z_far = slice_depth(last.z + 1u);
 #if TEST_SAT_E || TEST_SAT_N || TEST_SAT_P || TEST_SAT_V || TEST_NEAREST
     bounds.low = low;
     bounds.high = high;
@@ -47,6 +51,17 @@ bool within_planes(CellBounds cell, vec4 sphere)
     vec4 sides = side_distances(cell, sphere.xyz);
     precise vec2 ends = vec2(cell.z_near - sphere.z, sphere.z - cell.z_far);
     return min(min(min(sides.x, sides.y), min(sides.z, sides.w)), min(ends.x, ends.y)) >= -sphere.w;
+}
+
+// False only where within_planes is false for every cell of the range that `range` bounds. Of two planes through the apex
+// the outer one is not always nearer to what lies behind both, but it is to a centre in front of the apex by the radius.
+bool may_be_within_planes(CellBounds range, vec4 sphere)
+{
+    float radius = sphere.w + RANGE_ROUNDING * (abs(sphere.x) + abs(sphere.y) + abs(sphere.z) + sphere.w);
+    vec4 sides = side_distances(range, sphere.xyz);
+    vec2 ends = vec2(range.z_near - sphere.z, sphere.z - range.z_far);
+    float across = -sphere.z < 1.05 * radius ? 0.0 : min(min(sides.x, sides.y), min(sides.z, sides.w));
+    return min(across, min(ends.x, ends.y)) >= -radius;
 }
 
 // As within_planes, for some point of a box around the centre.

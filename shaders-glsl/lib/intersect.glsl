@@ -26,6 +26,11 @@
 #include "lib/separating_vertices.glsl"
 #endif
 
+CellBounds cell_bounds(uvec3 cell)
+{
+    return range_bounds(cell, cell);
+}
+
 bool meets(CellBounds cell, vec4 sphere)
 {
 #if TEST_HS || TEST_SAT_P
@@ -50,6 +55,16 @@ bool meets(CellBounds cell, vec4 sphere)
 #endif
 #if TEST_NEAREST
     return nearest_point_within(cell, sphere);
+#else
+    return true;
+#endif
+}
+
+// Whether a sphere may meet some cell of a range that `range` bounds.
+bool may_meet_range(CellBounds range, vec4 sphere)
+{
+#if TEST_BOUNDED
+    return may_be_within_planes(range, sphere);
 #else
     return true;
 #endif
