@@ -101,17 +101,19 @@ impl RainParameters {
         (position, Motion { velocity, life }, random)
     }
 
+    /// Whether a position lies in the box. No short cut: six comparisons cost less than a branch guessed wrong.
+    fn holds(&self, [x, y, z]: [f32; 3]) -> bool {
+        let ([x0, y0, z0], [x1, y1, z1]) = (self.box_min, self.box_max);
+        (x >= x0) & (x <= x1) & (y >= y0) & (y <= y1) & (z >= z0) & (z <= z1)
+    }
+
     /// One step of `dt` seconds for light `light`.
     fn step(&self, dt: f32, light: u32, position: &mut [f32; 3], motion: &mut Motion) {
-        for ((velocity, position), gravity) in
-            motion.velocity.iter_mut().zip(&mut *position).zip(self.gravity_step)
-        {
-            *velocity += gravity;
-            *velocity *= self.damping;
-            *position += *velocity * dt;
-        }
-        let inside = (0..3).all(|axis| (self.box_min[axis]..=self.box_max[axis]).contains(&position[axis]));
-        if !inside {
+        let ([x, y, z], [u, v, w], [gx, gy, gz]) = (*position, motion.velocity, self.gravity_step);
+        let [u, v, w] = [(u + gx) * self.damping, (v + gy) * self.damping, (w + gz) * self.damping];
+        motion.velocity = [u, v, w];
+        *position = [x + u * dt, y + v * dt, z + w * dt];
+        if !self.holds(*position) {
             (*position, *motion, _) = self.start(light, motion.life.wrapping_add(1));
         }
     }

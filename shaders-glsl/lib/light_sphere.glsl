@@ -9,6 +9,6 @@ vec4 sphere_of_light(uint light)
 {
     vec4 place = texelFetch(light_texels, int(LIGHT_TEXELS * light));
     precise vec3 centre = (grid.clustering_from_world * vec4(place.xyz, 1.0)).xyz;
-    precise float radius = place.w + grid.slack;
+    precise float radius = place.w + max(grid.slack, grid.slack_per_radius * place.w);
     return vec4(centre, radius);
 }

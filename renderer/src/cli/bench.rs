@@ -90,8 +90,8 @@ fn assign(args: &Args, console: &Console) -> Result<()> {
     let bench = args.bench()?;
     let interrupt = Interrupt::install()?;
     let inputs = Inputs::load(&config)?;
-    let ways = bench.assigners.len() * bench.tests.len();
-    let cases = bench.lights.len() * bench.frames.len() * config.methods.len() * ways;
+    let tests: usize = config.methods.iter().map(|method| bench.tests_of(method).len()).sum();
+    let cases = bench.lights.len() * bench.frames.len() * bench.assigners.len() * tests;
     let progress = console.progress(cases as u64 * (u64::from(bench.repeats) + 1));
     let watch = Watch { interrupt: interrupt.flag(), progress: &|| progress.advance() };
     let mut rows: Vec<BenchRow> = vec![];

@@ -7,8 +7,8 @@ use crate::geometry::{ClusterSpace, Grid};
 use crate::gpu_interface::{GridData, ViewData};
 use crate::views::{Pose, View};
 
-/// Rounding of positions and planes in f32 stays below this fraction of the far distance (measured: see the
-/// tests of the CPU twin), so radii grown by it never lose a light.
+/// Rounding of positions and planes in f32 stays below this fraction of the far distance, or of the radius where that is
+/// larger (measured: see the tests of the CPU twin), so radii grown by it never lose a light.
 const SLACK_PER_METRE: f32 = 8e-7;
 
 /// A grid as shaders read it.
@@ -37,6 +37,7 @@ pub fn grid_data(grid: &Grid, lights: u32, sizes: &ClusteringSizes) -> GridData 
         scale: (1.0 / cell).as_vec3().to_array(),
         cell: cell.as_vec3().to_array(),
         slack: SLACK_PER_METRE * reach as f32,
+        slack_per_radius: SLACK_PER_METRE,
         light_count: lights,
         visible_capacity: sizes.capacities.visible_clusters,
         index_capacity: sizes.capacities.light_indices,

@@ -43,6 +43,8 @@ gpu_struct! {
         pub cell: [f32; 3],
         /// Added to every light's radius, metres: covers rounding at cell boundaries.
         pub slack: f32,
+        /// Added instead where it comes to more, per metre of the radius.
+        pub slack_per_radius: f32,
         /// Lights in this frame.
         pub light_count: u32,
         /// Visible clusters that fit.

@@ -53,12 +53,16 @@ impl StageMinima {
             frame: minima.get("frame").copied(),
             cluster: sum(&["frame/cluster"]),
             visibility: sum(&["frame/cluster/depth", "frame/cluster/mark"]),
-            count_lights: sum(&["frame/cluster/count_lights"]),
+            count_lights: sum(&COUNTING),
             assign_lights: sum(&["frame/cluster/assign_lights"]),
             shade: sum(&["frame/shade"]),
         }
     }
 }
+
+/// What it takes to know the lengths of the lists.
+const COUNTING: [&str; 3] =
+    ["frame/cluster/cull_lights", "frame/cluster/build_hierarchy", "frame/cluster/count_lights"];
 
 /// A stage's path without the numbers of views and clusterings.
 pub(crate) fn kind(path: &str) -> String {
@@ -97,6 +101,8 @@ mod tests {
                     ("frame/cluster[0]", 6.0),
                     ("frame/cluster[0]/depth[0]", 1.0),
                     ("frame/cluster[0]/mark[0]", 2.0),
+                    ("frame/cluster[0]/cull_lights", 0.25),
+                    ("frame/cluster[0]/build_hierarchy", 0.125),
                     ("frame/cluster[0]/count_lights", 1.0),
                     ("frame/cluster[0]/assign_lights", 2.0),
                     ("frame/cluster[1]", 9.0),
@@ -126,7 +132,7 @@ mod tests {
             frame: Some(20.0),
             cluster: Some(6.0 + 7.0),
             visibility: Some(0.5 + 2.0 + 4.0),
-            count_lights: Some(1.0 + 2.0),
+            count_lights: Some(0.25 + 0.125 + 1.0 + 2.0),
             assign_lights: Some(2.0),
             shade: Some(5.0 + 1.0),
         };

@@ -36,6 +36,19 @@ pub struct AssignBench {
     pub repeats: u32,
 }
 
+impl AssignBench {
+    /// What the tests are for a method, each once.
+    pub fn tests_of(&self, method: &MethodSpec) -> Vec<SphereTest> {
+        let mut tests = vec![];
+        for test in self.tests.iter().map(|test| test.of(method)) {
+            if !tests.contains(&test) {
+                tests.push(test);
+            }
+        }
+        tests
+    }
+}
+
 /// One measured way of assignment.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BenchRow {
@@ -55,15 +68,15 @@ pub struct BenchRow {
     pub light_indices: u64,
     /// Of all clusterings; of nodes too.
     pub intersection_tests: u64,
-    /// Culling of lights, build, count, offsets and assign: least of the repeats, milliseconds.
+    /// From lights to lists: transform or culling, build, count, offsets and assign. Least of the repeats, milliseconds.
     pub gpu_ms: f64,
 }
 
 /// The slot that benchmarked frames use: each is read before the next begins.
 const SLOT: usize = 0;
 /// Stages whose times make a row's.
-const STAGES: [&str; 5] =
-    ["cull_lights", "build_hierarchy", "count_lights", "light_offsets", "assign_lights"];
+const STAGES: [&str; 6] =
+    ["transform_lights", "cull_lights", "build_hierarchy", "count_lights", "light_offsets", "assign_lights"];
 
 /// Times `bench` by the config's methods, scene, recording and resolution; rows come as soon as they are measured.
 ///
@@ -110,7 +123,7 @@ impl Case<'_> {
     fn measure(&self, session: &mut Session, bench: &AssignBench, watch: &Watch) -> Result<Vec<BenchRow>> {
         let mut rows = vec![];
         let mut engines = vec![];
-        for test in self.tests(bench) {
+        for test in bench.tests_of(&self.method) {
             for &assigner in &bench.assigners {
                 rows.push(self.count(session, (assigner, test))?);
                 engines.push(self.engine(session, (assigner, test), false)?);
@@ -125,17 +138,6 @@ impl Case<'_> {
             }
         }
         Ok(rows)
-    }
-
-    /// What the tests are for the method, each once.
-    fn tests(&self, bench: &AssignBench) -> Vec<SphereTest> {
-        let mut tests = vec![];
-        for test in bench.tests.iter().map(|test| test.of(&self.method)) {
-            if !tests.contains(&test) {
-                tests.push(test);
-            }
-        }
-        tests
     }
 
     fn engine(

@@ -4,7 +4,9 @@ use super::{Case, SLOT};
 use crate::Result;
 use crate::assign::Assigner;
 use crate::config::{Config, Scopes};
+use crate::geometry::SphereTest;
 use crate::output::{PlannedRun, planned_runs};
+use crate::replay::choose;
 use crate::replay::engine::Engine;
 use crate::replay::session::Session;
 use crate::replay::{Inputs, Watch, plan_frames};
@@ -47,12 +49,15 @@ fn measure(
     watch: &Watch,
 ) -> Result<ScopesRow> {
     let [all, frame] = [Scopes::All, Scopes::Frame].map(|scopes| Config { scopes, ..config.clone() });
+    let plans = plan_frames(config, &inputs.recording, &run.method)?;
+    let assigner = choose::assigner(config, inputs, session, (run, &plans))?;
+    let how = (assigner, run.test.of(&run.method));
     let mut source = inputs.light_source(&run.lights)?;
     let mut pairs = vec![];
-    for plan in &plan_frames(config, &inputs.recording, &run.method)? {
+    for plan in &plans {
         let lights = source.at_frame(plan.frame).to_vec();
         let case = |config| Case { config, method: run.method, plan, lights: &lights, shaded: true };
-        pairs.push(least_times([case(&all), case(&frame)], session, run, watch)?);
+        pairs.push(least_times([case(&all), case(&frame)], session, how, watch)?);
     }
     Ok(ScopesRow {
         run: run.name.clone(),
@@ -67,10 +72,9 @@ fn measure(
 fn least_times(
     cases: [Case<'_>; 2],
     session: &mut Session,
-    run: &PlannedRun,
+    how: (Assigner, SphereTest),
     watch: &Watch,
 ) -> Result<[f64; 2]> {
-    let how = (run.assign.fixed().unwrap_or(Assigner::Brute), run.test.of(&run.method));
     let turns = cases[0].config.runs;
     let mut engines = vec![];
     for case in &cases {

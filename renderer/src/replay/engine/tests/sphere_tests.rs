@@ -83,17 +83,18 @@ fn lists_of_all_tests_equal_their_twins() {
     }
 }
 
-/// Lights that touch one cluster each, by the last bit of their radius or little more; they lie in all directions from it.
-fn touching_lights(grid: &Grid, visible: &[u32], count: u32) -> Vec<(u32, PointLight)> {
+/// Lights that touch one cluster each, by the last bit of their radius or little more; they lie in all directions from it,
+/// up to `farthest` metres away.
+fn touching_lights(grid: &Grid, visible: &[u32], farthest: f64) -> Vec<(u32, PointLight)> {
     let mut random = noise(77);
     let mut unit = move || f64::from(random() % 65_536) / 65_536.0;
     let mut found = Vec::new();
-    while found.len() < count as usize {
+    while found.len() < 4000 {
         let cluster = visible[(unit() * visible.len() as f64) as usize];
         let cell = grid.cluster_at(cluster);
         let inside = DVec3::from_array(cell.map(|index| f64::from(index) + unit()));
         let away = DVec3::new(unit() - 0.5, unit() - 0.5, unit() - 0.5).normalize_or(DVec3::X);
-        let local = grid.point_at(inside) + away * 10f64.powf(3.0 * unit() - 1.5);
+        let local = grid.point_at(inside) + away * farthest * 1e-3f64.powf(unit());
         let position = grid.pose.transform_point(local).as_vec3();
         let center = grid.pose.inverse_transform_point(position.as_dvec3());
         let distance = -CellTest::new(SphereTest::Exact, grid, cell).margin(center, 0.0);
@@ -105,10 +106,10 @@ fn touching_lights(grid: &Grid, visible: &[u32], count: u32) -> Vec<(u32, PointL
     found
 }
 
-fn no_touching_light_is_lost(method: MethodSpec, grid: Grid) {
+fn no_touching_light_is_lost(method: MethodSpec, grid: Grid, farthest: f64) {
     let visible = Case::new(grid, vec![]).visible;
     let (touched, lights): (Vec<u32>, Vec<PointLight>) =
-        touching_lights(&grid, &visible, 4000).into_iter().unzip();
+        touching_lights(&grid, &visible, farthest).into_iter().unzip();
     let case = Case::new(grid, lights);
     for test in TESTS.map(|name| name.parse().unwrap()) {
         let lists = case.lists(method, test);
@@ -121,12 +122,18 @@ fn no_touching_light_is_lost(method: MethodSpec, grid: Grid) {
 
 #[test]
 fn no_touching_light_is_lost_in_perspective_grids() {
-    no_touching_light_is_lost(PERSP, frustum_grid([7, 6, 13]));
+    no_touching_light_is_lost(PERSP, frustum_grid([7, 6, 13]), 30.0);
     // Few, large clusters: the lengths that are projected are as long as the grid.
-    no_touching_light_is_lost(PERSP, frustum_grid([2, 2, 3]));
+    no_touching_light_is_lost(PERSP, frustum_grid([2, 2, 3]), 30.0);
 }
 
 #[test]
 fn no_touching_light_is_lost_in_orthographic_grids() {
-    no_touching_light_is_lost(ORTHO, box_grid([11, 9, 13]));
+    no_touching_light_is_lost(ORTHO, box_grid([11, 9, 13]), 30.0);
+}
+
+#[test]
+fn no_touching_light_is_lost_however_large() {
+    no_touching_light_is_lost(PERSP, frustum_grid([7, 6, 13]), 20_000.0);
+    no_touching_light_is_lost(ORTHO, box_grid([11, 9, 13]), 20_000.0);
 }

@@ -1,0 +1,79 @@
+//! The configurations and the schema that come along.
+
+use super::*;
+
+#[test]
+fn bundled_configurations_say_what_they_should() {
+    let default = Config::resolve(Some(&repository("configs/default.json")), Layer::default()).unwrap();
+    assert_eq!(default, Config::default());
+    let tuned = Config::resolve(Some(&repository("configs/tuned.json")), Layer::default()).unwrap();
+    let lighting = |count, intensity| Lighting { count, intensity, cutoff: 0.5, r0: 0.1 };
+    let expected = Config {
+        resolution: [640, 720],
+        lights: vec![lighting(1000, 100.0), lighting(10_000, 20.0), lighting(100_000, 1.0)],
+        frames: FrameRange { first: 0, end: None, step: 1 },
+        runs: 4,
+        out: "out/tuned".into(),
+        ..Config::default()
+    };
+    assert_eq!(tuned, expected);
+}
+
+#[test]
+fn the_bundled_sweep_of_tests_is_of_all_tuned_methods() {
+    let config = Config::resolve(Some(&repository("configs/tests.json")), Layer::default()).unwrap();
+    let parts = crate::sweep::parts(&config).unwrap();
+    assert_eq!((parts.len(), parts[0].runs.len()), (1, 6 * 3 * 4));
+    assert_eq!(parts[0].runs[3].name, "indi-persp-64_1000_exact");
+}
+
+#[test]
+fn bundled_sweeps_are_the_experiments_of_the_thesis() {
+    let names = |file: &str| {
+        let config = Config::resolve(Some(&repository(file)), Layer::default()).unwrap();
+        let parts = crate::sweep::parts(&config).unwrap();
+        for part in &parts {
+            let eye = part.config.recording.ends_with("-vive");
+            let [width, height] = part.config.resolution;
+            assert_eq!(
+                (width, height),
+                if eye { (height * 8 / 9, height) } else { (height * 16 / 9, height) }
+            );
+            assert_eq!(part.config.runs, if file.ends_with("ci.json") { 2 } else { 4 });
+        }
+        let names = parts.iter().flat_map(|part| part.runs.iter().map(|run| part.full_name(run)));
+        names.collect::<Vec<_>>()
+    };
+    for file in ["configs/thesis.json", "configs/thesis-street.json"] {
+        let names = names(file);
+        // Nineteen methods in mono and six in stereo, under three lightings, in two scenes.
+        assert_eq!(names.len(), (19 + 6) * 3 * 2, "{file}");
+        let count = |part: &str| names.iter().filter(|name| name.contains(part)).count();
+        assert_eq!((count("vive/indi-"), count("vive/encl-"), count("encl-")), (18, 18, 18), "{file}");
+    }
+    let all = names("configs/thesis-street.json");
+    let small = names("configs/thesis-ci.json");
+    assert!(small.iter().all(|name| all.contains(name)));
+}
+
+/// `MANYLIGHT_BLESS=1` rewrites the schema.
+#[test]
+fn the_schema_is_in_step() {
+    let path = repository("configs/manylight.schema.json");
+    let schema = serde_json::to_string_pretty(&json_schema()).unwrap() + "\n";
+    if std::env::var_os("MANYLIGHT_BLESS").is_some_and(|value| value == "1") {
+        std::fs::write(&path, &schema).unwrap();
+    }
+    let stored = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(stored == schema, "{} is out of step: run the tests with MANYLIGHT_BLESS=1", path.display());
+}
+
+#[test]
+fn the_schema_has_the_defaults_and_refuses_unknown_fields() {
+    let schema = json_schema();
+    assert_eq!(schema["additionalProperties"], false);
+    assert_eq!(schema.get("required"), None);
+    assert_eq!(schema["properties"]["resolution"]["default"], serde_json::json!([320, 180]));
+    assert_eq!(schema["properties"]["lights"]["default"][0]["r0"], 0.1);
+    assert_eq!(schema["$defs"]["Lighting"]["properties"]["r0"]["default"], 0.1);
+}

@@ -1,0 +1,107 @@
+//! How files and flags go over one another.
+
+use super::*;
+
+#[test]
+fn layers_replace_what_they_give_and_leave_the_rest() {
+    let config = resolved(&[
+        r#"{"scene": "temple", "runs": 4, "methods": ["all-lights"], "device": "llvmpipe"}"#,
+        r#"{"runs": 0, "exr": [580, 300, 300], "lights": [{"count": 10000, "intensity": 20}]}"#,
+    ])
+    .unwrap();
+    let expected = Config {
+        scene: "temple".into(),
+        runs: 0,
+        methods: vec![MethodSpec::AllLights],
+        device: Some("llvmpipe".into()),
+        exr: ExrFrames::List(vec![300, 580]),
+        lights: vec![Lighting { count: 10000, intensity: 20.0, cutoff: 0.5, r0: 0.1 }],
+        ..Config::default()
+    };
+    assert_eq!(config, expected);
+}
+
+#[test]
+fn sources_of_light_replace_each_other_as_one() {
+    let sources = |layers: &[&str]| resolved(layers).unwrap().lights_from();
+    let rain = vec![LightsFrom::Rain(Lighting::with_count(7))];
+    assert_eq!(sources(&[r#"{"lights_file": "l.csv"}"#]), [LightsFrom::File("l.csv".into())]);
+    assert_eq!(sources(&[r#"{"scene_lights": true}"#]), [LightsFrom::Scene]);
+    assert_eq!(sources(&[r#"{"lights_file": "l.csv"}"#, r#"{"lights": [{"count": 7}]}"#]), rain);
+    assert_eq!(sources(&[r#"{"lights_file": "l.csv"}"#, r#"{"scene_lights": true}"#]), [LightsFrom::Scene]);
+    let default = Config::default().lights_from();
+    assert_eq!(sources(&[r#"{"scene_lights": true}"#, r#"{"scene_lights": false}"#]), default);
+    assert_eq!(sources(&[r#"{"scene_lights": false}"#]), default);
+}
+
+#[test]
+fn a_resolved_configuration_is_a_configuration_file_again() {
+    let configs = [
+        Config::default(),
+        Config { lights: Vec::new(), scene_lights: true, exr: ExrFrames::All, ..Config::default() },
+        Config {
+            scenes: vec!["street=bistro,8x4".parse().unwrap(), "temple=suntem,5..9".parse().unwrap()],
+            exclude: vec!["scene=street|temple,lights=1000,method=indi-*".parse().unwrap()],
+            ..Config::default()
+        },
+        Config { lights: Vec::new(), lights_file: Some("l.csv".into()), msaa: 4, ..Config::default() },
+        Config {
+            assign: vec![Assign::Auto, Assign::Brute],
+            test: vec!["hs+sat-n".parse().unwrap(), Test::Auto],
+            ..Config::default()
+        },
+        Config {
+            shaders: Some("glsl".into()),
+            device: Some("0".into()),
+            scopes: Scopes::Frame,
+            ..Config::default()
+        },
+    ];
+    for config in configs {
+        let text = serde_json::to_string(&config).unwrap();
+        assert_eq!(resolved(&[&text]).unwrap(), config);
+    }
+}
+
+#[test]
+fn ways_and_tests_are_one_or_several_and_serve_their_methods() {
+    let ways = |text: &str| {
+        let config = resolved(&[text]).unwrap();
+        (config.assign, config.test.iter().map(ToString::to_string).collect::<Vec<_>>())
+    };
+    let brute = || vec![Assign::Brute];
+    assert_eq!(ways("{}"), (brute(), vec!["auto".to_owned()]));
+    assert_eq!(ways(r#"{"test": "exact"}"#), (brute(), vec!["exact".to_owned()]));
+    let both = (vec![Assign::Scatter, Assign::Auto], vec!["hs".to_owned(), "sat-epv".to_owned()]);
+    assert_eq!(ways(r#"{"assign": ["scatter", "auto"], "test": ["hs", "sat-vpe"]}"#), both);
+    for (text, expected) in [
+        (
+            r#"{"test": "hs+satn"}"#,
+            "line 1, column 10: test: `hs+satn` is no test of sphere against cluster; did",
+        ),
+        (r#"{"test": ["hs", 3]}"#, "line 1, column 17: test[1]: invalid type: integer `3`"),
+        (r#"{"test": ["hs", "hs"]}"#, "line 1, column 10: test: hs is named twice"),
+        (
+            r#"{"assign": "brut"}"#,
+            "line 1, column 12: assign: `brut` is no way of assignment; did you mean `brute`?",
+        ),
+        (r#"{"assign": []}"#, "line 1, column 12: assign: an empty list: name at least one"),
+    ] {
+        assert!(refusal(text).starts_with(expected), "{}", refusal(text));
+    }
+}
+
+#[test]
+fn scenes_replace_each_other_as_one() {
+    let entries = |layers: &[&str]| resolved(layers).unwrap().scene_entries();
+    let two = r#"{"scenes": [{"scene": "street", "recording": "bistro", "resolution": [8, 4], "frames": "5"},
+        {"scene": "temple", "recording": "suntem"}]}"#;
+    let read = |text: &str| text.parse::<SceneEntry>().unwrap();
+    assert_eq!(entries(&[]), [read("street=bistro-vive")]);
+    assert_eq!(entries(&[two]), [read("street=bistro,8x4,5"), read("temple=suntem")]);
+    assert_eq!(entries(&[two, r#"{"frames": "9"}"#])[0], read("street=bistro,8x4"));
+    assert_eq!(entries(&[two, r#"{"resolution": [2, 2]}"#])[0], read("street=bistro,5"));
+    assert_eq!(entries(&[two, r#"{"recording": "bistro"}"#]), [read("street=bistro")]);
+    let error = resolved(&[r#"{"scene": "a", "scenes": [{"scene": "b", "recording": "c"}]}"#]).unwrap_err();
+    assert!(error.to_string().contains("exclude"), "{error}");
+}
