@@ -3,6 +3,7 @@
 use super::access::{Access, Tracker};
 use crate::vk::Context;
 use ash::vk;
+use std::cell::Cell;
 use std::fmt;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -73,13 +74,15 @@ impl ScopeTree {
     }
 }
 
-/// Timestamp queries of one frame in flight: two a scope.
+/// Timestamp queries of one frame in flight. Scopes that begin or end with no command between share one.
 pub struct Timestamps {
     context: Arc<Context>,
     pool: vk::QueryPool,
     values: Vec<u64>,
-    /// Scopes that got timestamps in the last frame recorded.
-    timed: usize,
+    /// Where each timed scope of the last frame recorded finds its begin and its end among the values.
+    places: Vec<[usize; 2]>,
+    /// Queries written in that frame.
+    written: usize,
     /// When recording of each scope began, and how long it took.
     cpu: Vec<(Instant, Duration)>,
 }
@@ -114,7 +117,8 @@ impl Timestamps {
             context: context.clone(),
             pool,
             values: vec![0; 2 * scopes],
-            timed: 0,
+            places: Vec::with_capacity(scopes),
+            written: 0,
             cpu: Vec::with_capacity(scopes),
         })
     }
@@ -122,7 +126,7 @@ impl Timestamps {
     /// (GPU, CPU) milliseconds of each scope of the last frame, in execution order. Its frame must have ended, so
     /// that nothing is waited for; scopes without timestamps have a GPU time of NaN.
     pub fn read(&mut self) -> crate::Result<impl ExactSizeIterator<Item = (f64, f64)> + '_> {
-        let values = &mut self.values[..2 * self.timed];
+        let values = &mut self.values[..self.written];
         if !values.is_empty() {
             let flags = vk::QueryResultFlags::TYPE_64;
             unsafe { self.context.device.get_query_pool_results(self.pool, 0, values, flags) }.map_err(
@@ -132,20 +136,17 @@ impl Timestamps {
         let limits = &self.context.limits;
         let mask = u64::MAX >> (64 - limits.timestamp_valid_bits.clamp(1, 64));
         let period = limits.timestamp_period_ns;
-        let values = &self.values[..2 * self.timed];
-        Ok(self.cpu.iter().enumerate().map(move |(scope, (_, cpu))| {
-            let gpu = values
-                .get(2 * scope..2 * scope + 2)
-                .map_or(f64::NAN, |pair| (pair[1].wrapping_sub(pair[0]) & mask) as f64 * period * 1e-6);
-            (gpu, cpu.as_secs_f64() * 1e3)
+        Ok(self.spans().map(move |span| {
+            let milliseconds =
+                |[start, end]: [u64; 2]| (end.wrapping_sub(start) & mask) as f64 * period * 1e-6;
+            (span.gpu_ticks.map_or(f64::NAN, milliseconds), span.cpu_time.as_secs_f64() * 1e3)
         }))
     }
 
     /// When each scope ran of the frame that [`Self::read`] read last, in execution order.
     pub fn spans(&self) -> impl ExactSizeIterator<Item = ScopeSpan> + '_ {
         self.cpu.iter().enumerate().map(|(scope, &(cpu_start, cpu_time))| {
-            let timed = scope < self.timed;
-            let gpu_ticks = timed.then(|| [self.values[2 * scope], self.values[2 * scope + 1]]);
+            let gpu_ticks = self.places.get(scope).map(|ends| ends.map(|query| self.values[query]));
             ScopeSpan { gpu_ticks, cpu_start, cpu_time }
         })
     }
@@ -161,8 +162,9 @@ impl Drop for Timestamps {
 pub struct Recorder<'a> {
     /// For what passes record themselves.
     pub context: &'a Context,
-    /// The frame's command buffer.
-    pub commands: vk::CommandBuffer,
+    commands: vk::CommandBuffer,
+    /// Whether commands may have been recorded since the last timestamp.
+    stirred: Cell<bool>,
     tree: &'a mut ScopeTree,
     timestamps: &'a mut Timestamps,
     tracker: &'a mut FrameTracker,
@@ -188,14 +190,30 @@ impl<'a> Recorder<'a> {
         timed_scopes: usize,
     ) -> Self {
         tracker.0.begin_frame();
-        timestamps.timed = 0;
+        timestamps.places.clear();
+        timestamps.written = 0;
         timestamps.cpu.clear();
         let queries = timestamps.values.len() as u32;
         unsafe { context.device.cmd_reset_query_pool(commands, timestamps.pool, 0, queries) };
-        let recorder =
-            Self { context, commands, tree, timestamps, tracker, timed_scopes, opened: 0, current: None };
+        let recorder = Self {
+            context,
+            commands,
+            stirred: Cell::new(true),
+            tree,
+            timestamps,
+            tracker,
+            timed_scopes,
+            opened: 0,
+            current: None,
+        };
         recorder.full_barrier();
         recorder
+    }
+
+    /// The frame's command buffer, to record to.
+    pub fn commands(&self) -> vk::CommandBuffer {
+        self.stirred.set(true);
+        self.commands
     }
 
     /// Runs `body` as a stage: labelled, timed, child of the stage that is open.
@@ -207,13 +225,17 @@ impl<'a> Recorder<'a> {
         let outer = self.current.replace(position);
         let timed = position < self.timed_scopes;
         self.context.begin_label(self.commands, &self.tree.scopes[position].label);
-        self.timestamps.timed += usize::from(timed);
-        self.timestamp(timed, 2 * position);
+        if timed {
+            let begin = self.timestamp();
+            self.timestamps.places.push([begin; 2]);
+        }
         let start = Instant::now();
         self.timestamps.cpu.push((start, Duration::ZERO));
         let result = body(self);
         self.timestamps.cpu[position].1 = start.elapsed();
-        self.timestamp(timed, 2 * position + 1);
+        if timed {
+            self.timestamps.places[position][1] = self.timestamp();
+        }
         self.context.end_label(self.commands);
         self.current = outer;
         result
@@ -221,15 +243,17 @@ impl<'a> Recorder<'a> {
 
     /// Waits for what `accesses` need; the commands that follow may then do what they say.
     pub fn access(&mut self, accesses: &[Access]) {
-        self.tracker.0.synchronise(&self.context.device, self.commands, accesses);
+        self.tracker.0.synchronise(&self.context.device, self.commands(), accesses);
     }
 
     /// A timestamp that is right on every driver: lavapipe defers it into the work at hand unless a full
-    /// barrier follows.
-    fn timestamp(&self, timed: bool, query: usize) {
-        if !timed {
-            return;
+    /// barrier follows. The last one, where nothing was recorded since: each costs the device that barrier.
+    fn timestamp(&mut self) -> usize {
+        if !self.stirred.replace(false) {
+            return self.timestamps.written - 1;
         }
+        let query = self.timestamps.written;
+        self.timestamps.written += 1;
         let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
         unsafe {
             self.context.device.cmd_write_timestamp2(
@@ -240,6 +264,7 @@ impl<'a> Recorder<'a> {
             );
         }
         self.full_barrier();
+        query
     }
 
     fn full_barrier(&self) {

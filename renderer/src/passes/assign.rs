@@ -33,7 +33,7 @@ pub fn transform_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
         let pipeline = &frame.pipelines.clustered().transform_lights;
         frame.bind_clustering(r, vk::PipelineBindPoint::COMPUTE, pipeline, clustering);
         let groups = frame.light_count.div_ceil(ASSIGN_GROUP);
-        unsafe { r.context.device.cmd_dispatch(r.commands, groups, 1, 1) };
+        unsafe { r.context.device.cmd_dispatch(r.commands(), groups, 1, 1) };
     });
 }
 

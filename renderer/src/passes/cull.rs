@@ -18,7 +18,7 @@ pub fn record(r: &mut Recorder, frame: &Frame, eyes: Eyes) {
         let dispatch = |eyes: Eyes| {
             frame.bind(r, vk::PipelineBindPoint::COMPUTE, frame.pipelines.cull(), eyes.first());
             frame.push_step(r, frame.view_count(eyes));
-            unsafe { r.context.device.cmd_dispatch(r.commands, groups, 1, 1) };
+            unsafe { r.context.device.cmd_dispatch(r.commands(), groups, 1, 1) };
         };
         // Marking and transparent surfaces are drawn view by view even so.
         if eyes == Eyes::All {

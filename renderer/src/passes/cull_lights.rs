@@ -20,7 +20,7 @@ pub fn cull_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
         let b = &frame.clusterings[clustering].buffers;
         let pipelines = frame.pipelines.accelerated();
         r.access(&[Access::buffer(b.block_bits.handle, Use::TransferWrite)]);
-        unsafe { r.context.device.cmd_fill_buffer(r.commands, b.block_bits.handle, 0, vk::WHOLE_SIZE, 0) };
+        unsafe { r.context.device.cmd_fill_buffer(r.commands(), b.block_bits.handle, 0, vk::WHOLE_SIZE, 0) };
         let writes = [&b.block_bits, &b.light_nodes];
         indirect(
             r,
@@ -49,5 +49,5 @@ pub fn cull_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
 fn per_word(r: &Recorder, frame: &Frame, clustering: usize, pipeline: &Pipeline) {
     frame.bind_clustering(r, vk::PipelineBindPoint::COMPUTE, pipeline, clustering);
     let groups = frame.light_count.div_ceil(32).div_ceil(ASSIGN_GROUP);
-    unsafe { r.context.device.cmd_dispatch(r.commands, groups, 1, 1) };
+    unsafe { r.context.device.cmd_dispatch(r.commands(), groups, 1, 1) };
 }

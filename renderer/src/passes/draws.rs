@@ -40,17 +40,17 @@ pub fn begin_rendering(
     }
     let device = &r.context.device;
     unsafe {
-        device.cmd_begin_rendering(r.commands, &info);
-        device.cmd_set_viewport(r.commands, 0, &[viewport]);
-        device.cmd_set_scissor(r.commands, 0, &[area]);
-        device.cmd_bind_vertex_buffers(r.commands, 0, &[frame.scene.vertices.handle], &[0]);
-        device.cmd_bind_index_buffer(r.commands, frame.scene.indices.handle, 0, vk::IndexType::UINT32);
+        device.cmd_begin_rendering(r.commands(), &info);
+        device.cmd_set_viewport(r.commands(), 0, &[viewport]);
+        device.cmd_set_scissor(r.commands(), 0, &[area]);
+        device.cmd_bind_vertex_buffers(r.commands(), 0, &[frame.scene.vertices.handle], &[0]);
+        device.cmd_bind_index_buffer(r.commands(), frame.scene.indices.handle, 0, vk::IndexType::UINT32);
     }
 }
 
 /// Closes what [`begin_rendering`] opened.
 pub fn end_rendering(r: &Recorder) {
-    unsafe { r.context.device.cmd_end_rendering(r.commands) };
+    unsafe { r.context.device.cmd_end_rendering(r.commands()) };
 }
 
 /// What is attached of a view's image: its layer, or all layers for all views.
@@ -112,7 +112,7 @@ fn draw_run(r: &Recorder, frame: &Frame, run: &DrawRun, views: u32) {
     let batch = &frame.scene.batches[run.batch as usize];
     unsafe {
         r.context.device.cmd_draw_indexed(
-            r.commands,
+            r.commands(),
             batch.index_count,
             views * run.instance_count,
             batch.first_index,
@@ -130,7 +130,7 @@ fn draw_commands(r: &Recorder, commands: &Buffer, first: u64, count: u32) {
         let offset = (first + u64::from(done)) * u64::from(STRIDE);
         let now = most.min(count - done);
         unsafe {
-            r.context.device.cmd_draw_indexed_indirect(r.commands, commands.handle, offset, now, STRIDE);
+            r.context.device.cmd_draw_indexed_indirect(r.commands(), commands.handle, offset, now, STRIDE);
         }
     }
 }
@@ -160,8 +160,8 @@ fn set_facing(r: &Recorder, mirrored: bool, double_sided: bool) {
     let cull = if double_sided { vk::CullModeFlags::NONE } else { vk::CullModeFlags::BACK };
     let front = if mirrored { vk::FrontFace::CLOCKWISE } else { vk::FrontFace::COUNTER_CLOCKWISE };
     unsafe {
-        r.context.device.cmd_set_cull_mode(r.commands, cull);
-        r.context.device.cmd_set_front_face(r.commands, front);
+        r.context.device.cmd_set_cull_mode(r.commands(), cull);
+        r.context.device.cmd_set_front_face(r.commands(), front);
     }
 }
 
@@ -195,7 +195,7 @@ impl Frame<'_> {
     fn push(&self, r: &Recorder, offset: u32, value: u32) {
         let (layout, stages) = (self.layouts.pipeline, vk::ShaderStageFlags::ALL);
         let bytes = value.to_ne_bytes();
-        unsafe { r.context.device.cmd_push_constants(r.commands, layout, stages, offset, &bytes) };
+        unsafe { r.context.device.cmd_push_constants(r.commands(), layout, stages, offset, &bytes) };
     }
 
     /// Binds a pipeline with the buffers of clustering `clustering`.
@@ -206,7 +206,7 @@ impl Frame<'_> {
         pipeline: &Pipeline,
         clustering: usize,
     ) {
-        unsafe { r.context.device.cmd_bind_pipeline(r.commands, point, pipeline.handle) };
+        unsafe { r.context.device.cmd_bind_pipeline(r.commands(), point, pipeline.handle) };
         self.bind_set(r, point, SET_BUFFERS, self.clusterings[clustering].sets[self.slot]);
     }
 
@@ -214,7 +214,7 @@ impl Frame<'_> {
     pub fn bind_set(&self, r: &Recorder, point: vk::PipelineBindPoint, index: u32, set: vk::DescriptorSet) {
         unsafe {
             r.context.device.cmd_bind_descriptor_sets(
-                r.commands,
+                r.commands(),
                 point,
                 self.layouts.pipeline,
                 index,

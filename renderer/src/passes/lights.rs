@@ -16,7 +16,7 @@ pub fn record(r: &mut Recorder, frame: &Frame) {
         let region = vk::BufferCopy::default().size(size);
         unsafe {
             r.context.device.cmd_copy_buffer(
-                r.commands,
+                r.commands(),
                 frame.light_staging.handle,
                 frame.lights.handle,
                 &[region],

@@ -32,8 +32,8 @@ pub fn record(
     for pipeline in &pipelines.lines {
         frame.bind(r, vk::PipelineBindPoint::GRAPHICS, pipeline, view);
         unsafe {
-            r.context.device.cmd_bind_vertex_buffers(r.commands, 0, &[lines.handle], &[0]);
-            r.context.device.cmd_draw(r.commands, VERTICES, count, 0, 0);
+            r.context.device.cmd_bind_vertex_buffers(r.commands(), 0, &[lines.handle], &[0]);
+            r.context.device.cmd_draw(r.commands(), VERTICES, count, 0, 0);
         }
     }
 }

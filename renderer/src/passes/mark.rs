@@ -40,7 +40,7 @@ pub fn count_fragments(r: &mut Recorder, frame: &Frame, clustering: usize) {
 
 fn clear(r: &mut Recorder, buffer: &Buffer) {
     r.access(&[Access::buffer(buffer.handle, Use::TransferWrite)]);
-    unsafe { r.context.device.cmd_fill_buffer(r.commands, buffer.handle, 0, vk::WHOLE_SIZE, 0) };
+    unsafe { r.context.device.cmd_fill_buffer(r.commands(), buffer.handle, 0, vk::WHOLE_SIZE, 0) };
 }
 
 /// Visits the cluster of every fragment of a view; what is found goes to `written`.
@@ -66,7 +66,7 @@ fn from_depth(r: &mut Recorder, frame: &Frame, view: usize, pipelines: &MarkPipe
     frame.bind(r, vk::PipelineBindPoint::COMPUTE, &pipelines.depth, view);
     frame.bind_set(r, vk::PipelineBindPoint::COMPUTE, SET_DEPTH, target.depth_set);
     let [width, height] = frame.resolution;
-    unsafe { r.context.device.cmd_dispatch(r.commands, width.div_ceil(8), height.div_ceil(8), 1) };
+    unsafe { r.context.device.cmd_dispatch(r.commands(), width.div_ceil(8), height.div_ceil(8), 1) };
 }
 
 fn from_geometry(

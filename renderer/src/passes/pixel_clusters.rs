@@ -33,7 +33,7 @@ pub fn record(
         frame.push_view(r, view);
         frame.bind_set(r, vk::PipelineBindPoint::COMPUTE, SET_DEPTH, frame.targets[view].depth_set);
         let [width, height] = frame.resolution;
-        unsafe { r.context.device.cmd_dispatch(r.commands, width.div_ceil(8), height.div_ceil(8), 1) };
+        unsafe { r.context.device.cmd_dispatch(r.commands(), width.div_ceil(8), height.div_ceil(8), 1) };
         copy(r, &b.pixels, target, 0, target.size);
         r.access(&[Access::buffer(target.handle, Use::HostRead)]);
     });

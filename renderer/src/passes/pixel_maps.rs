@@ -37,7 +37,7 @@ fn compute(r: &mut Recorder, frame: &Frame, view: usize) {
     frame.bind(r, vk::PipelineBindPoint::COMPUTE, &frame.pipelines.pixel_maps, view);
     frame.bind_set(r, vk::PipelineBindPoint::COMPUTE, SET_DEPTH, target.depth_set);
     let [width, height] = frame.resolution;
-    unsafe { r.context.device.cmd_dispatch(r.commands, width.div_ceil(8), height.div_ceil(8), 1) };
+    unsafe { r.context.device.cmd_dispatch(r.commands(), width.div_ceil(8), height.div_ceil(8), 1) };
 }
 
 /// Copies a view's colour, one sample a pixel, to the start of `target`.
@@ -54,7 +54,7 @@ pub fn copy_color(r: &mut Recorder, frame: &Frame, view: usize, target: &Buffer)
         .image_extent(vk::Extent3D { width, height, depth: 1 });
     unsafe {
         r.context.device.cmd_copy_image_to_buffer(
-            r.commands,
+            r.commands(),
             source.image.handle,
             vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
             target.handle,

@@ -18,7 +18,7 @@ pub fn states(r: &mut Recorder, frame: &Frame) {
         ]);
         let source = clustering.buffers.state.handle;
         let region = vk::BufferCopy::default().dst_offset(c as u64 * STATE_BYTES).size(STATE_BYTES);
-        unsafe { r.context.device.cmd_copy_buffer(r.commands, source, frame.states.handle, &[region]) };
+        unsafe { r.context.device.cmd_copy_buffer(r.commands(), source, frame.states.handle, &[region]) };
     }
     r.access(&[Access::buffer(frame.states.handle, Use::HostRead)]);
 }
@@ -28,7 +28,7 @@ pub fn clear_counters(r: &mut Recorder, frame: &Frame) {
     for clustering in frame.clusterings {
         for buffer in [&clustering.buffers.counters, &clustering.buffers.lights_per_fragment] {
             r.access(&[Access::buffer(buffer.handle, Use::TransferWrite)]);
-            unsafe { r.context.device.cmd_fill_buffer(r.commands, buffer.handle, 0, vk::WHOLE_SIZE, 0) };
+            unsafe { r.context.device.cmd_fill_buffer(r.commands(), buffer.handle, 0, vk::WHOLE_SIZE, 0) };
         }
     }
 }
@@ -73,5 +73,5 @@ pub fn copy(r: &mut Recorder, source: &Buffer, target: &Buffer, offset: u64, siz
         Access::buffer(target.handle, Use::TransferWrite),
     ]);
     let region = vk::BufferCopy::default().dst_offset(offset).size(size);
-    unsafe { r.context.device.cmd_copy_buffer(r.commands, source.handle, target.handle, &[region]) };
+    unsafe { r.context.device.cmd_copy_buffer(r.commands(), source.handle, target.handle, &[region]) };
 }

@@ -35,5 +35,5 @@ pub fn resolve(r: &mut Recorder, target: &ViewTargets, [width, height]: [u32; 2]
         .dst_image(resolved.image.handle)
         .dst_image_layout(vk::ImageLayout::TRANSFER_DST_OPTIMAL)
         .regions(&regions);
-    unsafe { r.context.device.cmd_resolve_image2(r.commands, &info) };
+    unsafe { r.context.device.cmd_resolve_image2(r.commands(), &info) };
 }

@@ -105,7 +105,7 @@ fn scan(
         }
         frame.bind_clustering(r, vk::PipelineBindPoint::COMPUTE, pipeline, clustering);
         match slot {
-            None => unsafe { r.context.device.cmd_dispatch(r.commands, groups, 1, 1) },
+            None => unsafe { r.context.device.cmd_dispatch(r.commands(), groups, 1, 1) },
             Some(slot) => dispatch_indirect(r, b.dispatches.handle, slot),
         }
     }
@@ -114,5 +114,5 @@ fn scan(
 /// Dispatches with the size that the device wrote into slot `slot`.
 pub(super) fn dispatch_indirect(r: &Recorder, dispatches: vk::Buffer, slot: u32) {
     let offset = u64::from(slot) * size_of::<DispatchSize>() as u64;
-    unsafe { r.context.device.cmd_dispatch_indirect(r.commands, dispatches, offset) };
+    unsafe { r.context.device.cmd_dispatch_indirect(r.commands(), dispatches, offset) };
 }

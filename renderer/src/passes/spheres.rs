@@ -16,5 +16,5 @@ const VERTICES: u32 = 6 * RINGS * SEGMENTS;
 /// Draws all lights of the frame, in their order; rendering to the view is open.
 pub fn record(r: &Recorder, frame: &Frame, pipelines: &DebugPipelines, view: usize) {
     frame.bind(r, vk::PipelineBindPoint::GRAPHICS, &pipelines.spheres, view);
-    unsafe { r.context.device.cmd_draw(r.commands, VERTICES, frame.light_count, 0, 0) };
+    unsafe { r.context.device.cmd_draw(r.commands(), VERTICES, frame.light_count, 0, 0) };
 }
