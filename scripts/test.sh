@@ -12,8 +12,8 @@ step() {
 }
 
 step cargo fmt --all --check
-# One profile for everything, so that dependencies are built once.
+# One profile and one set of features for everything, so that dependencies are built once.
 step cargo clippy --release --locked --workspace --all-targets -- --deny warnings
-step cargo build --release --locked --package manylight
+step cargo build --release --locked --workspace --all-targets
 step cargo test --release --locked --workspace
 RUSTDOCFLAGS="--deny warnings" step cargo doc --release --locked --workspace --no-deps --document-private-items

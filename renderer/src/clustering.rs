@@ -199,7 +199,7 @@ fn texels(
     shared: &SharedBuffers,
     b: &ClusteringBuffers,
 ) -> Result<[TexelView; TEXELS.len()]> {
-    let view = |buffer, place: usize| TexelView::new(context, buffer, TEXELS[place].1);
+    let view = |buffer, place: usize| TexelView::new(context, buffer, TEXELS[place].2);
     Ok([
         view(shared.lights, 0)?,
         view(shared.instances, 1)?,

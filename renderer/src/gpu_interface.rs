@@ -94,21 +94,25 @@ pub const BUFFERS: [(Binding, &str, &str); 28] = [
     (Binding::DrawnInstances, "", "uint drawn_instances[]"),
 ];
 
-/// Views of buffers as arrays of texels, as (GLSL declaration, format); bound behind [`BUFFERS`].
+/// Views of buffers as arrays of texels, as (buffer, GLSL declaration, format); bound behind [`BUFFERS`].
 ///
 /// What a loop reads with an index of each thread's own is read through these: llvmpipe fetches a texel for all lanes at
 /// once, where it takes storage buffers lane by lane and word by word.
-pub const TEXELS: [(&str, vk::Format); 9] = [
-    ("textureBuffer light_texels", vk::Format::R32G32B32A32_SFLOAT),
-    ("textureBuffer instance_texels", vk::Format::R32G32B32A32_SFLOAT),
-    ("textureBuffer sphere_texels", vk::Format::R32G32B32A32_SFLOAT),
-    ("utextureBuffer index_texels", vk::Format::R32_UINT),
-    ("utextureBuffer mask_texels", vk::Format::R32_UINT),
-    ("utextureBuffer block_texels", vk::Format::R32_UINT),
-    ("utextureBuffer candidate_texels", vk::Format::R32G32B32A32_UINT),
-    ("textureBuffer tree_texels", vk::Format::R32G32B32A32_SFLOAT),
-    ("textureBuffer node_texels", vk::Format::R32G32B32A32_SFLOAT),
+pub const TEXELS: [(&str, &str, vk::Format); 9] = [
+    ("lights", "textureBuffer light_texels", FLOATS),
+    ("instances", "textureBuffer instance_texels", FLOATS),
+    ("light_spheres", "textureBuffer sphere_texels", FLOATS),
+    ("light_indices", "utextureBuffer index_texels", WORD),
+    ("light_masks", "utextureBuffer mask_texels", WORD),
+    ("block_bits", "utextureBuffer block_texels", WORD),
+    ("candidates", "utextureBuffer candidate_texels", WORDS),
+    ("tree_spheres", "textureBuffer tree_texels", FLOATS),
+    ("light_nodes", "textureBuffer node_texels", FLOATS),
 ];
+
+const FLOATS: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
+const WORD: vk::Format = vk::Format::R32_UINT;
+const WORDS: vk::Format = vk::Format::R32G32B32A32_UINT;
 
 /// What all threads read alike, as GLSL members of uniform buffers; bound behind [`TEXELS`].
 ///
@@ -302,7 +306,7 @@ pub fn glsl() -> String {
             "layout(set = SET_BUFFERS, binding = {number}, scalar) {access} buffer Buffer{number} {{ {member}; }};"
         );
     }
-    for (position, (declaration, _)) in TEXELS.iter().enumerate() {
+    for (position, (_, declaration, _)) in TEXELS.iter().enumerate() {
         let number = BUFFERS.len() + position;
         let _ = writeln!(text, "layout(set = SET_BUFFERS, binding = {number}) uniform {declaration};");
     }

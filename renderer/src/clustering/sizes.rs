@@ -3,10 +3,10 @@
 use crate::assign::{self, Assigner};
 use crate::gpu_interface::{
     ASSIGN_GROUP, BLOCK_WORDS, COUNTER_COUNT, Candidate, ClusterGroup, DISPATCH_COUNT, DispatchSize,
-    LightNode, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS,
+    LightData, LightNode, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS, TEXELS,
 };
 use crate::measure::Capacities;
-use crate::vk::Limits;
+use crate::vk::{Limits, texel_bytes};
 use crate::{Error, Result};
 
 /// Everything that decides a clustering's buffer sizes.
@@ -114,22 +114,32 @@ impl ClusteringSizes {
         let entries = |words: u64| u32::try_from(words).unwrap_or(u32::MAX);
         Capacities {
             visible_clusters: entries((words - 1).min(groups * u64::from(ASSIGN_GROUP))),
-            light_indices: entries(words),
+            light_indices: entries(words.min(limits.max_texel_buffer_elements)),
         }
     }
 
     /// Refuses what the device cannot hold or dispatch, naming the largest fault.
     pub fn check(&self, limits: &Limits) -> Result<()> {
-        for (name, size) in self.bytes() {
-            if size > limits.max_storage_buffer_range {
-                return Err(Error::Device(format!(
-                    "buffer {name} would need {size} bytes ({} clusters, {} lights, {} visible clusters, {} light \
-                     indices) but the device binds at most {}: use fewer lights or larger clusters",
+        let lights = ("lights", size_of::<LightData>() as u64 * u64::from(self.lights));
+        for (name, size) in self.bytes().into_iter().chain([lights]) {
+            let too_much = |what: String| {
+                Error::Device(format!(
+                    "buffer {name} would {what} ({} clusters, {} lights, {} visible clusters, {} light indices): use \
+                     fewer lights or larger clusters",
                     self.clusters,
                     self.lights,
                     self.capacities.visible_clusters,
                     self.capacities.light_indices,
-                    limits.max_storage_buffer_range
+                ))
+            };
+            let most = limits.max_storage_buffer_range;
+            if size > most {
+                return Err(too_much(format!("need {size} bytes but the device binds at most {most}")));
+            }
+            let (texels, most) = (texels(name, size), limits.max_texel_buffer_elements);
+            if texels > most {
+                return Err(too_much(format!(
+                    "be read as {texels} texels but the device takes at most {most}"
                 )));
             }
         }
@@ -151,5 +161,73 @@ impl ClusteringSizes {
             }
         }
         Ok(())
+    }
+}
+
+/// How many texels a buffer is read as; none where it is not.
+fn texels(name: &str, size: u64) -> u64 {
+    let found = TEXELS.iter().find(|(buffer, ..)| *buffer == name);
+    found.map_or(0, |&(_, _, format)| size / texel_bytes(format))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What 10 000 lights need among 2^20 clusters.
+    fn sizes() -> ClusteringSizes {
+        let capacities = Capacities { visible_clusters: 1000, light_indices: 1 << 20 };
+        let assigner = Assigner::Scatter;
+        ClusteringSizes {
+            clusters: 1 << 20,
+            lights: 10_000,
+            capacities,
+            assigner,
+            counting: true,
+            pixels: 64,
+        }
+    }
+
+    /// What the least device has that the specification allows, but for larger storage buffers.
+    fn limits() -> Limits {
+        Limits {
+            max_storage_buffer_range: 1 << 27,
+            max_texel_buffer_elements: 1 << 20,
+            max_compute_work_group_count: [65_535; 3],
+            ..Limits::default()
+        }
+    }
+
+    fn refusal(sizes: &ClusteringSizes, limits: &Limits) -> String {
+        sizes.check(limits).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn what_fits_is_taken() {
+        sizes().check(&limits()).unwrap();
+    }
+
+    #[test]
+    fn what_the_device_does_not_hold_read_or_dispatch_is_named() {
+        let small = Limits { max_storage_buffer_range: 1 << 17, ..limits() };
+        assert!(refusal(&sizes(), &small).starts_with("buffer light_spheres would need 160000 bytes"));
+        let few = Limits { max_texel_buffer_elements: 29_999, ..limits() };
+        let many_lights = refusal(&ClusteringSizes { capacities: few_indices(), ..sizes() }, &few);
+        assert!(many_lights.starts_with("buffer lights would be read as 30000 texels"), "{many_lights}");
+        let narrow = Limits { max_compute_work_group_count: [31; 3], ..limits() };
+        assert!(refusal(&sizes(), &narrow).contains("would need a dispatch of"));
+    }
+
+    fn few_indices() -> Capacities {
+        Capacities { visible_clusters: 2, light_indices: 1000 }
+    }
+
+    #[test]
+    fn lists_grow_no_longer_than_they_can_be_read() {
+        assert_eq!(sizes().most(&limits()).light_indices, 1 << 20);
+        assert_eq!(
+            sizes().most(&Limits { max_texel_buffer_elements: 1 << 30, ..limits() }).light_indices,
+            1 << 25
+        );
     }
 }

@@ -3,7 +3,7 @@
 //! Where a file gives none they are made as MikkTSpace makes them (Mikkelsen, *Simulation of Wrinkled Surfaces
 //! Revisited*, 2008, which glTF 2.0 section 3.7.2.1 asks for): the faces around a vertex that map the texture the same
 //! way round, weighted by their angles there. Faces that meet in a vertex alone, without an edge, count as neighbours
-//! too; the tests compare the rest with the mikktspace crate, which takes ten times as long.
+//! too; the tests compare the rest with the bevy_mikktspace crate.
 
 use glam::{Vec2, Vec3};
 
@@ -165,6 +165,7 @@ mod tests {
     use super::super::mesh::{PLAIN_VERTEX, tests::quad};
     use super::super::{Sampler, Wrap};
     use super::*;
+    use bevy_mikktspace::TangentSpace;
 
     fn reading(uv_transform: [[f32; 3]; 2]) -> TextureRef {
         let sampler = Sampler { wrap: [Wrap::Repeat; 2], nearest: false };
@@ -206,7 +207,7 @@ mod tests {
         }
     }
 
-    /// What the mikktspace crate makes of a mesh, by corner.
+    /// What the bevy_mikktspace crate makes of a mesh, by corner.
     struct Peer<'a> {
         mesh: &'a Mesh,
         tangents: Vec<[f32; 4]>,
@@ -218,7 +219,7 @@ mod tests {
         }
     }
 
-    impl mikktspace::Geometry for Peer<'_> {
+    impl bevy_mikktspace::Geometry for Peer<'_> {
         fn num_faces(&self) -> usize {
             self.mesh.indices.len() / 3
         }
@@ -239,7 +240,8 @@ mod tests {
             self.vertex(face, corner).uv[0]
         }
 
-        fn set_tangent_encoded(&mut self, [x, y, z, sign]: [f32; 4], face: usize, corner: usize) {
+        fn set_tangent(&mut self, space: Option<TangentSpace>, face: usize, corner: usize) {
+            let [x, y, z, sign] = space.expect("every face has a tangent").tangent_encoded();
             self.tangents[3 * face + corner] = [x, y, z, -sign];
         }
     }
@@ -273,7 +275,7 @@ mod tests {
         let unshared = Mesh { vertices: corners, indices, material: 0 };
         for mut mesh in [shared, unshared] {
             let mut peer = Peer { mesh: &mesh, tangents: vec![[0.0; 4]; mesh.indices.len()] };
-            assert!(mikktspace::generate_tangents(&mut peer));
+            bevy_mikktspace::generate_tangents(&mut peer).unwrap();
             let expected = peer.tangents;
             mesh.generate_tangents(&reading(TextureRef::IDENTITY));
             for (corner, (&index, expected)) in mesh.indices.iter().zip(expected).enumerate() {

@@ -191,6 +191,7 @@ impl fmt::Display for ListedDevice {
                 limits.max_per_stage_storage_buffers
             ),
         )?;
+        row("texel buffer", format!("{} texels", limits.max_texel_buffer_elements))?;
         row(
             "work groups",
             format!("{x} x {y} x {z} of {} invocations", limits.max_compute_work_group_invocations),

@@ -20,7 +20,7 @@ pub struct DeviceInfo {
 }
 
 /// The limits and optional features that passes plan with. Optional features listed here are enabled where present.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Limits {
     /// Nanoseconds per timestamp tick.
     pub timestamp_period_ns: f64,

@@ -32,7 +32,7 @@ pub use limits::{DeviceInfo, Limits};
 pub use pipeline::{GraphicsDesc, Pipeline, compute_pipeline, graphics_pipeline};
 pub use sampler::SamplerCache;
 pub use shader::ShaderLibrary;
-pub use texel_view::TexelView;
+pub use texel_view::{TexelView, texel_bytes};
 pub use texture::upload_textures;
 pub use validation::ValidationLog;
 

@@ -47,8 +47,8 @@ impl Drop for TexelView {
     }
 }
 
-/// Every device reads these formats as texels (Vulkan 1.3, "Required Format Support").
-fn texel_bytes(format: vk::Format) -> u64 {
+/// Bytes of a texel. Every device reads these formats (Vulkan 1.3, "Required Format Support").
+pub fn texel_bytes(format: vk::Format) -> u64 {
     match format {
         vk::Format::R32_UINT => 4,
         vk::Format::R32G32B32A32_SFLOAT | vk::Format::R32G32B32A32_UINT => 16,
