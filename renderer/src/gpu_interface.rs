@@ -149,9 +149,11 @@ pub const TILE_ROW: u32 = 1 << 15;
 pub const LIST_ROW: u32 = 1 << 15;
 /// Blocks of clusters along x and y, at most; along z there are up to 32, a bit each.
 pub const BLOCK_COLUMNS: u32 = 16;
-/// Words of all columns of blocks, with the coarser ones behind them, two by two joined, down to one; then the highest
-/// and the lowest visible cell.
-pub const BLOCK_WORDS: u32 = (4 * BLOCK_COLUMNS * BLOCK_COLUMNS - 1) / 3 + 6;
+/// Words of all columns of blocks, with the coarser ones behind them, two by two joined, down to one. Behind these lie the
+/// highest and the lowest visible cell.
+const BLOCK_EXTREMES: u32 = (4 * BLOCK_COLUMNS * BLOCK_COLUMNS - 1) / 3;
+/// All words of blocks.
+pub const BLOCK_WORDS: u32 = BLOCK_EXTREMES + 6;
 /// Groups that one thread takes a candidate to.
 pub const GROUP_CHUNK: u32 = 16;
 /// Threads of a cluster, among which the hierarchy's subtrees are dealt out.
@@ -219,7 +221,7 @@ const COUNTERS: [(&str, Counter); COUNTER_COUNT] = [
     ("COUNTER_INTERSECTION_TESTS", Counter::IntersectionTests),
 ];
 
-const CONSTANTS: [(&str, u32); 30] = [
+const CONSTANTS: [(&str, u32); 31] = [
     ("SET_BUFFERS", SET_BUFFERS),
     ("SET_MATERIAL", SET_MATERIAL),
     ("SET_DEPTH", SET_DEPTH),
@@ -230,6 +232,7 @@ const CONSTANTS: [(&str, u32); 30] = [
     ("TILE_ROW", TILE_ROW),
     ("LIST_ROW", LIST_ROW),
     ("BLOCK_COLUMNS", BLOCK_COLUMNS),
+    ("BLOCK_EXTREMES", BLOCK_EXTREMES),
     ("GROUP_CHUNK", GROUP_CHUNK),
     ("TREE_SPLIT", TREE_SPLIT),
     ("DISPATCH_LISTS", DISPATCH_LISTS),

@@ -153,7 +153,7 @@ pub struct BufferSet<'a> {
 }
 
 /// The whole of a buffer, for a descriptor.
-pub fn whole(buffer: &Buffer) -> [vk::DescriptorBufferInfo; 1] {
+fn whole(buffer: &Buffer) -> [vk::DescriptorBufferInfo; 1] {
     [vk::DescriptorBufferInfo::default().buffer(buffer.handle).offset(0).range(vk::WHOLE_SIZE)]
 }
 

@@ -1,6 +1,6 @@
 // Which lights may meet a visible cluster: those whose range of cells meets a block that holds one. A thread takes the
 // lights of a word of bits, which are then ranked as those of clusters are. Most lights lie outside what the visible
-// clusters span together, and are told by its planes, for a tenth of the cost.
+// clusters span together, and are told by its planes, for a part of the cost.
 #version 460
 #include "lib/blocks.glsl"
 #include "lib/cell_range.glsl"

@@ -20,11 +20,8 @@ void main()
         uint light = word * 32u + uint(findLSB(bits));
         vec4 sphere = sphere_of_light(light);
         CellRange range = cells_near(sphere);
-        uvec3 cells;
-        for (uint axis = 0u; axis < 3u; ++axis)
-            cells[axis] = pack_range(uint(range.low[axis]), uint(range.high[axis]));
         light_spheres[number] = sphere;
-        candidates[number] = Candidate(light, cells);
+        candidates[number] = Candidate(light, pack_cells(uvec3(range.low), uvec3(range.high)));
         ++number;
     }
 }

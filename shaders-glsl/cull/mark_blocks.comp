@@ -32,9 +32,6 @@ void main()
     uvec3 low = uvec3(lowest[0], lowest[1], lowest[2]), high = uvec3(highest[0], highest[1], highest[2]);
     include_visible(low, high);
 #if ASSIGN == ASSIGN_SCATTER
-    uvec3 cells;
-    for (uint axis = 0u; axis < 3u; ++axis)
-        cells[axis] = pack_range(low[axis], high[axis]);
-    groups[gl_WorkGroupID.x] = ClusterGroup(cells, 0u, 0u, 0u);
+    groups[gl_WorkGroupID.x] = ClusterGroup(pack_cells(low, high), 0u, 0u, 0u);
 #endif
 }

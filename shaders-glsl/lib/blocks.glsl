@@ -18,24 +18,22 @@ uint block_column(uvec2 block, uint level)
 }
 
 // Behind all columns: the highest visible cell, and the lowest with all bits turned, so that both start at 0 and only grow.
-const uint EXTREMES = (4u * BLOCK_COLUMNS * BLOCK_COLUMNS - 1u) / 3u;
-
 void include_visible(uvec3 low, uvec3 high)
 {
     for (uint axis = 0u; axis < 3u; ++axis) {
-        atomicMax(block_bits[EXTREMES + axis], high[axis]);
-        atomicMax(block_bits[EXTREMES + 3u + axis], ~low[axis]);
+        atomicMax(block_bits[BLOCK_EXTREMES + axis], high[axis]);
+        atomicMax(block_bits[BLOCK_EXTREMES + 3u + axis], ~low[axis]);
     }
 }
 
 uvec3 highest_visible()
 {
-    return uvec3(block_bits[EXTREMES], block_bits[EXTREMES + 1u], block_bits[EXTREMES + 2u]);
+    return uvec3(block_bits[BLOCK_EXTREMES], block_bits[BLOCK_EXTREMES + 1u], block_bits[BLOCK_EXTREMES + 2u]);
 }
 
 uvec3 lowest_visible()
 {
-    return ~uvec3(block_bits[EXTREMES + 3u], block_bits[EXTREMES + 4u], block_bits[EXTREMES + 5u]);
+    return ~uvec3(block_bits[BLOCK_EXTREMES + 3u], block_bits[BLOCK_EXTREMES + 4u], block_bits[BLOCK_EXTREMES + 5u]);
 }
 
 // The block of a cell: cell / block size, by a product, for processors divide integers slowly. Half a cell keeps rounding

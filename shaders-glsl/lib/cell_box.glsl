@@ -6,9 +6,6 @@ struct CellBounds {
     vec3 centre, half_extent;
 };
 
-// Rounding of distances from a range of cells against those from its cells, in parts of the coordinates.
-const float RANGE_ROUNDING = 4e-6;
-
 // What cells from one to another fill together.
 CellBounds range_bounds(uvec3 first, uvec3 last)
 {

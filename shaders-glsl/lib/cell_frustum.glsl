@@ -11,9 +11,6 @@ struct CellBounds {
 #endif
 };
 
-// Rounding of distances from the planes of a range against those of its cells, in parts of the coordinates.
-const float RANGE_ROUNDING = 4e-6;
-
 float slice_depth(uint slice)
 {
     precise float depth = -grid.origin.z * exp2(float(slice) * grid.cell.z);

@@ -17,6 +17,9 @@
 
 #include "lib/cluster_space.glsl"
 
+// Rounding of distances from a range of cells against those from its cells, in parts of the coordinates.
+const float RANGE_ROUNDING = 4e-6;
+
 #if SPACE == SPACE_PERSPECTIVE
 #include "lib/cell_frustum.glsl"
 #else

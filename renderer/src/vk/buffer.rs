@@ -189,14 +189,12 @@ pub(super) fn full_barrier(context: &Context, cmd: vk::CommandBuffer) {
     };
 }
 
+/// A uniform buffer may be longer than what is bound of it at a time, such as the data of all materials.
 fn check_size(context: &Context, name: &str, size: u64, usage: vk::BufferUsageFlags) -> Result<()> {
     let limits = &context.limits;
     let mut limit = limits.max_buffer_size.min(limits.max_memory_allocation_size);
     if usage.contains(vk::BufferUsageFlags::STORAGE_BUFFER) {
         limit = limit.min(limits.max_storage_buffer_range);
-    }
-    if usage.contains(vk::BufferUsageFlags::UNIFORM_BUFFER) {
-        limit = limit.min(limits.max_uniform_buffer_range);
     }
     match size <= limit {
         true => Ok(()),

@@ -200,6 +200,10 @@ fn an_empty_buffer_is_allowed_and_one_over_the_limits_is_refused_in_one_line() {
             error.to_string().starts_with("light indices: ") && error.to_string().contains(&size.to_string())
         );
 
+        let uniform = vk::BufferUsageFlags::UNIFORM_BUFFER;
+        let size = context.limits.max_uniform_buffer_range + 1;
+        Buffer::new(context, "materials", size, uniform, Memory::Device).expect("bound part by part");
+
         let side = context.limits.max_image_dimension_2d + 1;
         let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT;
         let format = vk::Format::R8G8B8A8_UNORM;
