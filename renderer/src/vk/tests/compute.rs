@@ -56,8 +56,10 @@ fn image(name: &str, srgb: bool, seed: usize) -> scene::Image {
     scene::Image { name: name.into(), width: 7, height: 5, srgb, mips: [35, 6, 1].map(level).to_vec() }
 }
 
-fn srgb_to_linear(value: f32) -> f32 {
-    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+/// The byte whose sRGB code is nearest to a linear value: devices decode sRGB to within half a code.
+fn srgb_code(linear: f32) -> f32 {
+    let encoded = if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
+    (255.0 * encoded).round()
 }
 
 #[test]
@@ -80,14 +82,9 @@ fn all_mips_of_all_textures_arrive_also_in_many_small_chunks() {
                 bindings.dispatch(&pipeline, 1);
                 let bytes = image.mips.concat();
                 for (index, (&byte, got)) in bytes.iter().zip(texels.read::<f32>(0, 42 * 4)).enumerate() {
-                    let value = f32::from(byte) / 255.0;
                     let colour = image.srgb && index % 4 != 3;
-                    let expected = if colour { srgb_to_linear(value) } else { value };
-                    assert!(
-                        (got - expected).abs() < 2e-3,
-                        "{} byte {index}: {got} for {expected}",
-                        image.name
-                    );
+                    let code = if colour { srgb_code(got) } else { (255.0 * got).round() };
+                    assert_eq!(code, f32::from(byte), "{} byte {index}, sampled as {got}", image.name);
                 }
             }
         }
