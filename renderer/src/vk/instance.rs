@@ -5,7 +5,7 @@ use super::vk_error;
 use crate::{Error, Result};
 use ash::{ext, vk};
 use std::ffi::CStr;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
@@ -15,8 +15,6 @@ pub(super) struct Instance {
     pub debug_utils: bool,
     pub log: Arc<ValidationLog>,
     messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
-    /// Keeps the loader's library mapped; last, for fields drop in order.
-    _entry: ash::Entry,
 }
 
 impl Instance {
@@ -26,13 +24,13 @@ impl Instance {
     /// [`Error::Device`], naming the package to install, when the loader, a Vulkan 1.3 loader or the validation
     /// layers are missing.
     pub fn new(validate: bool) -> Result<Self> {
-        let entry = load()?;
+        let entry = loader()?;
         let layers: &[*const std::ffi::c_char] = if validate { &[VALIDATION_LAYER.as_ptr()] } else { &[] };
         if validate {
-            require_validation(&entry)?;
+            require_validation(entry)?;
         }
-        let debug_utils = has_extension(&entry, None, ext::debug_utils::NAME)?
-            || (validate && has_extension(&entry, Some(VALIDATION_LAYER), ext::debug_utils::NAME)?);
+        let debug_utils = has_extension(entry, None, ext::debug_utils::NAME)?
+            || (validate && has_extension(entry, Some(VALIDATION_LAYER), ext::debug_utils::NAME)?);
         let mut extensions = Vec::new();
         extensions.extend(debug_utils.then_some(ext::debug_utils::NAME.as_ptr()));
         extensions.extend(validate.then_some(ext::validation_features::NAME.as_ptr()));
@@ -53,15 +51,15 @@ impl Instance {
             info = info.push_next(&mut messenger).push_next(&mut features);
         }
         let handle = unsafe { entry.create_instance(&info, None) }.map_err(instance_error)?;
-        let mut instance = Self { handle, debug_utils, log, messenger: None, _entry: entry };
+        let mut instance = Self { handle, debug_utils, log, messenger: None };
         if validate {
-            instance.listen()?;
+            instance.listen(entry)?;
         }
         Ok(instance)
     }
 
-    fn listen(&mut self) -> Result<()> {
-        let functions = ext::debug_utils::Instance::new(&self._entry, &self.handle);
+    fn listen(&mut self, entry: &ash::Entry) -> Result<()> {
+        let functions = ext::debug_utils::Instance::new(entry, &self.handle);
         let messenger = unsafe { functions.create_debug_utils_messenger(&messenger_info(&self.log), None) }
             .map_err(|e| vk_error("making the validation messenger", e))?;
         self.messenger = Some((functions, messenger));
@@ -78,6 +76,17 @@ impl Drop for Instance {
             self.handle.destroy_instance(None);
         }
     }
+}
+
+/// The Vulkan loader of this process. It stays mapped to the end: drivers keep threads and thread-local data of their
+/// own, which must not outlive their code.
+fn loader() -> Result<&'static ash::Entry> {
+    static LOADER: OnceLock<ash::Entry> = OnceLock::new();
+    if let Some(entry) = LOADER.get() {
+        return Ok(entry);
+    }
+    let entry = load()?;
+    Ok(LOADER.get_or_init(|| entry))
 }
 
 fn load() -> Result<ash::Entry> {
