@@ -1,9 +1,10 @@
 //! The recorder: labels, timestamp scopes and barriers of one frame's commands.
 
 use super::access::{Access, Tracker};
-use crate::vk::Context;
+use crate::vk::{Context, c_string};
 use ash::vk;
 use std::cell::Cell;
+use std::ffi::CString;
 use std::fmt;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -42,7 +43,8 @@ struct Scope {
     /// Position of the enclosing scope.
     parent: Option<usize>,
     path: String,
-    label: String,
+    /// What tools for captures show.
+    label: CString,
 }
 
 /// The stages of a frame in execution order. It is built by the first frame and then only compared, so that
@@ -70,7 +72,7 @@ impl ScopeTree {
             Some(parent) => format!("{}/{label}", self.scopes[parent].path),
             None => label.clone(),
         };
-        self.scopes.push(Scope { name, parent, path, label });
+        self.scopes.push(Scope { name, parent, path, label: c_string(&label) });
     }
 }
 
@@ -246,8 +248,8 @@ impl<'a> Recorder<'a> {
         self.tracker.0.synchronise(&self.context.device, self.commands(), accesses);
     }
 
-    /// A timestamp that is right on every driver: lavapipe defers it into the work at hand unless a full
-    /// barrier follows. The last one, where nothing was recorded since: each costs the device that barrier.
+    /// A timestamp that is right on every driver: lavapipe defers it into the work at hand unless a barrier
+    /// of all commands follows. The last one, where nothing was recorded since: each costs the device that barrier.
     fn timestamp(&mut self) -> usize {
         if !self.stirred.replace(false) {
             return self.timestamps.written - 1;
@@ -263,16 +265,28 @@ impl<'a> Recorder<'a> {
                 query as u32,
             );
         }
-        self.full_barrier();
+        self.wait_for_all();
         query
     }
 
+    /// What follows starts once all that was recorded has ended, and sees all that it wrote.
     fn full_barrier(&self) {
+        use vk::AccessFlags2 as A;
+        self.barrier(A::MEMORY_WRITE, A::MEMORY_READ | A::MEMORY_WRITE);
+    }
+
+    /// What follows starts once all that was recorded has ended. No memory is made visible: passes ask for that
+    /// themselves, and emptying caches for a timestamp would be a cost of measuring.
+    fn wait_for_all(&self) {
+        self.barrier(vk::AccessFlags2::NONE, vk::AccessFlags2::NONE);
+    }
+
+    fn barrier(&self, written: vk::AccessFlags2, seen: vk::AccessFlags2) {
         let barrier = vk::MemoryBarrier2::default()
             .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
-            .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+            .src_access_mask(written)
             .dst_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
-            .dst_access_mask(vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE);
+            .dst_access_mask(seen);
         let barriers = [barrier];
         let dependency = vk::DependencyInfo::default().memory_barriers(&barriers);
         unsafe { self.context.device.cmd_pipeline_barrier2(self.commands, &dependency) };

@@ -2,7 +2,7 @@
 
 use super::device::{Candidate, candidates, choose};
 use super::features::Features;
-use super::instance::Instance;
+use super::instance::{Instance, driver_lock};
 use super::limits::{DeviceInfo, Limits};
 use super::validation::ValidationLog;
 use super::{bytes_text, vk_error};
@@ -10,7 +10,7 @@ use crate::{Error, Result};
 use ash::{ext, vk};
 use gpu_allocator::AllocationError;
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, Allocator, AllocatorCreateDesc};
-use std::ffi::CString;
+use std::ffi::{CStr, CString};
 use std::sync::{Arc, Mutex, MutexGuard};
 
 /// How to open a device.
@@ -110,12 +110,10 @@ impl Context {
     }
 
     /// Opens a labelled region of `cmd`; does nothing without VK_EXT_debug_utils.
-    pub fn begin_label(&self, cmd: vk::CommandBuffer, name: &str) {
+    pub fn begin_label(&self, cmd: vk::CommandBuffer, name: &CStr) {
         let Some(debug) = &self.debug else { return };
-        let name = c_string(name);
-        unsafe {
-            debug.cmd_begin_debug_utils_label(cmd, &vk::DebugUtilsLabelEXT::default().label_name(&name))
-        };
+        let label = vk::DebugUtilsLabelEXT::default().label_name(name);
+        unsafe { debug.cmd_begin_debug_utils_label(cmd, &label) };
     }
 
     /// Closes the innermost labelled region of `cmd`.
@@ -235,6 +233,7 @@ impl Drop for Context {
             let _ = self.device.device_wait_idle();
             self.device.destroy_command_pool(*lock(&self.one_off_pool), None);
             drop(lock(&self.allocator).take());
+            let _destroying = driver_lock();
             self.device.destroy_device(None);
         }
     }
@@ -246,6 +245,7 @@ fn create_device(instance: &ash::Instance, chosen: &Candidate) -> Result<ash::De
         .queue_priorities(&[1.0])];
     let mut features = Features::query(instance, chosen.physical).enabled();
     let info = features.attach(vk::DeviceCreateInfo::default().queue_create_infos(&queues));
+    let _making = driver_lock();
     unsafe { instance.create_device(chosen.physical, &info, None) }
         .map_err(|e| vk_error(&format!("opening {}", chosen.info.name), e))
 }
@@ -255,8 +255,8 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
 }
 
-/// `text` up to its first NUL.
-fn c_string(text: &str) -> CString {
+/// `text` up to its first NUL, for names that Vulkan is told.
+pub fn c_string(text: &str) -> CString {
     let text = text.split('\0').next().unwrap_or_default();
     CString::new(text).unwrap_or_default()
 }

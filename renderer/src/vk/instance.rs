@@ -5,7 +5,7 @@ use super::vk_error;
 use crate::{Error, Result};
 use ash::{ext, vk};
 use std::ffi::CStr;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock};
 
 const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
@@ -50,7 +50,9 @@ impl Instance {
         if validate {
             info = info.push_next(&mut messenger).push_next(&mut features);
         }
+        let making = driver_lock();
         let handle = unsafe { entry.create_instance(&info, None) }.map_err(instance_error)?;
+        drop(making);
         let mut instance = Self { handle, debug_utils, log, messenger: None };
         if validate {
             instance.listen(entry)?;
@@ -69,6 +71,7 @@ impl Instance {
 
 impl Drop for Instance {
     fn drop(&mut self) {
+        let _destroying = driver_lock();
         unsafe {
             if let Some((functions, messenger)) = &self.messenger {
                 functions.destroy_debug_utils_messenger(*messenger, None);
@@ -76,6 +79,13 @@ impl Drop for Instance {
             self.handle.destroy_instance(None);
         }
     }
+}
+
+/// Held while an instance or a device is made or destroyed: Vulkan lets threads do so at the same time, but NVIDIA's
+/// driver was seen to crash then (580.159, and in reports of other programs).
+pub(super) fn driver_lock() -> MutexGuard<'static, ()> {
+    static DRIVER: Mutex<()> = Mutex::new(());
+    DRIVER.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
 }
 
 /// The Vulkan loader of this process. It stays mapped to the end: drivers keep threads and thread-local data of their

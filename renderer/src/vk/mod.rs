@@ -25,7 +25,7 @@ mod texture;
 mod validation;
 
 pub use buffer::{Buffer, Memory};
-pub use context::{Context, DeviceOptions};
+pub use context::{Context, DeviceOptions, c_string};
 pub use device::{DeviceListing, ListedDevice, list_devices};
 pub use image::{Image, ImageDesc};
 pub use limits::{DeviceInfo, Limits};

@@ -40,7 +40,7 @@ pub(super) fn upload_in_chunks(
     for (index, chunk) in chunks.iter().enumerate() {
         fill(&staging, images, chunk);
         context.submit_and_wait(|cmd| {
-            context.begin_label(cmd, "upload textures");
+            context.begin_label(cmd, c"upload textures");
             if index == 0 {
                 let begin =
                     Layouts { old: vk::ImageLayout::UNDEFINED, new: vk::ImageLayout::TRANSFER_DST_OPTIMAL };

@@ -87,7 +87,7 @@ impl Bindings {
         let compute = vk::PipelineBindPoint::COMPUTE;
         self.context
             .submit_and_wait(|cmd| unsafe {
-                self.context.begin_label(cmd, "test");
+                self.context.begin_label(cmd, c"test");
                 device.cmd_bind_pipeline(cmd, compute, pipeline.handle);
                 device.cmd_bind_descriptor_sets(cmd, compute, self.layout, 0, &[self.set], &[]);
                 device.cmd_dispatch(cmd, groups, 1, 1);
