@@ -1,17 +1,13 @@
 //! Tangents for normal maps.
 //!
-//! Where a file gives none they are made as MikkTSpace makes them (Mikkelsen, *Simulation of Wrinkled Surfaces
-//! Revisited*, 2008, which glTF 2.0 section 3.7.2.1 asks for): the faces around a vertex that map the texture the same
-//! way round, weighted by their angles there. Faces that meet in a vertex alone, without an edge, count as neighbours
-//! too; the tests compare the rest with the bevy_mikktspace crate.
+//! Where a file gives none, bevy_mikktspace makes them as MikkTSpace does (Mikkelsen, *Simulation of Wrinkled Surfaces
+//! Revisited*, 2008), which glTF 2.0 section 3.7.2.1 asks for.
 
+use bevy_mikktspace::TangentSpace;
 use glam::{Vec2, Vec3};
 
 use super::mesh::Mesh;
 use super::{TextureRef, Vertex};
-
-/// No place yet.
-const NONE: u32 = u32::MAX;
 
 impl Mesh {
     /// Gives every vertex a tangent that is orthonormal to its normal: enough where no normal map is read.
@@ -25,94 +21,87 @@ impl Mesh {
     /// become any.
     pub fn mend_tangents(&mut self) {
         for vertex in &mut self.vertices {
-            let [x, y, z, sign] = vertex.tangent;
-            vertex.tangent = match across(Vec3::new(x, y, z), vertex.normal) {
-                Some(tangent) => tangent.extend(if sign < 0.0 { -1.0 } else { 1.0 }).to_array(),
-                None => any_tangent(vertex.normal),
-            };
+            vertex.tangent = orthonormal(Some(vertex.tangent), vertex.normal);
         }
     }
 
     /// Generates tangents from the coordinates that `normal_map` reads, its texture transform applied. Vertices whose
-    /// faces disagree (mirrored coordinates) are split.
+    /// corners disagree (mirrored coordinates, faces that meet in a vertex alone) are split.
     pub fn generate_tangents(&mut self, normal_map: &TextureRef) {
         let uvs = transformed_uvs(&self.vertices, normal_map);
-        let points = weld(&self.vertices, &uvs);
-        let faces: Vec<Option<Face>> =
-            self.indices.as_chunks::<3>().0.iter().map(|corners| self.face(corners, &uvs)).collect();
-        let mut sums = vec![[Vec3::ZERO; 2]; self.vertices.len()];
-        for (corners, face) in self.indices.as_chunks::<3>().0.iter().zip(&faces) {
-            let Some(face) = face else { continue };
-            for turn in 0..3 {
-                let corner = corners[turn] as usize;
-                let share = self.share(face, [turn, turn + 1, turn + 2].map(|i| corners[i % 3] as usize));
-                sums[points[corner] as usize][face.side] += share;
-            }
-        }
-        self.give_tangents(&faces, |vertex| sums[points[vertex] as usize]);
+        let mut corners = Corners { mesh: self, uvs, tangents: vec![None; self.indices.len()] };
+        let made = bevy_mikktspace::generate_tangents(&mut corners);
+        let tangents = if made.is_ok() { corners.tangents } else { vec![None; self.indices.len()] };
+        self.give_tangents(&tangents);
     }
 
-    /// What a triangle says of its tangent; `None` without an area in space or in the texture.
-    fn face(&self, corners: &[u32; 3], uvs: &[Vec2]) -> Option<Face> {
-        let [a, b, c] = corners.map(|i| Vec3::from(self.vertices[i as usize].position));
-        let [ua, ub, uc] = corners.map(|i| uvs[i as usize]);
-        let (ab, ac) = (ub - ua, uc - ua);
-        let area = ab.perp_dot(ac);
-        let along_u = ((b - a) * ac.y - (c - a) * ab.y) * area.signum();
-        let flat = a == b || b == c || c == a || area == 0.0;
-        along_u
-            .try_normalize()
-            .filter(|_| !flat)
-            .map(|along_u| Face { along_u, side: usize::from(area > 0.0) })
-    }
-
-    /// What a face adds at its corner `at`: its tangent across the normal there, weighted by the angle.
-    fn share(&self, face: &Face, [at, next, last]: [usize; 3]) -> Vec3 {
-        let normal = Vec3::from(self.vertices[at].normal);
-        let from = Vec3::from(self.vertices[at].position);
-        let edge = |to: usize| {
-            let edge = Vec3::from(self.vertices[to].position) - from;
-            edge.reject_from_normalized(normal).normalize_or_zero()
-        };
-        let angle = edge(next).dot(edge(last)).clamp(-1.0, 1.0).acos();
-        face.along_u.reject_from_normalized(normal).normalize_or_zero() * angle
-    }
-
-    /// Gives each vertex the sum of its faces' side, and copies those with faces of both.
-    fn give_tangents(&mut self, faces: &[Option<Face>], sums: impl Fn(usize) -> [Vec3; 2]) {
-        let tangent = |vertex: usize, side: usize, normal| {
-            // The bitangent points up the image, and v down it: faces of positive area are mirrored.
-            let sign = if side == 1 { -1.0 } else { 1.0 };
-            across(sums(vertex)[side], normal).map(|tangent| tangent.extend(sign).to_array())
-        };
-        let mut placed = vec![[NONE; 2]; self.vertices.len()];
-        self.set_any_tangents();
-        for (corner, index) in self.indices.iter_mut().enumerate() {
+    /// Gives each corner its tangent; a vertex of several is copied.
+    fn give_tangents(&mut self, tangents: &[Option<[f32; 4]>]) {
+        // Of each vertex the copy made last, and of that the one made before it.
+        let mut copies: Vec<Option<u32>> = vec![None; self.vertices.len()];
+        let mut given = vec![false; self.vertices.len()];
+        for (index, &tangent) in self.indices.iter_mut().zip(tangents) {
             let vertex = *index as usize;
-            let full = usize::from(sums(vertex)[0] == Vec3::ZERO);
-            let side = faces[corner / 3].as_ref().map_or(full, |face| face.side);
-            if placed[vertex][side] == NONE {
-                placed[vertex][side] = *index;
-                let mut copy = self.vertices[vertex];
-                copy.tangent = tangent(vertex, side, copy.normal).unwrap_or(any_tangent(copy.normal));
-                if placed[vertex][1 - side] == NONE {
-                    self.vertices[vertex] = copy;
-                } else {
-                    placed[vertex][side] = self.vertices.len() as u32;
-                    self.vertices.push(copy);
-                }
-            }
-            *index = placed[vertex][side];
+            let tangent = orthonormal(tangent, self.vertices[vertex].normal);
+            let known = std::iter::successors(Some(*index), |&copy| copies[copy as usize])
+                .find(|&copy| !given[copy as usize] || self.vertices[copy as usize].tangent == tangent);
+            *index = known.unwrap_or_else(|| {
+                let copy = self.vertices.len() as u32;
+                self.vertices.push(self.vertices[vertex]);
+                given.push(true);
+                let earlier = copies[vertex].replace(copy);
+                copies.push(earlier);
+                copy
+            });
+            given[*index as usize] = true;
+            self.vertices[*index as usize].tangent = tangent;
+        }
+        for (vertex, _) in self.vertices.iter_mut().zip(given).filter(|(_, given)| !given) {
+            vertex.tangent = any_tangent(vertex.normal);
         }
     }
 }
 
-/// How a triangle lies in its texture.
-struct Face {
-    /// Unit vector along which u grows.
-    along_u: Vec3,
-    /// 1 where the triangle turns the same way in the texture as in space, else 0.
-    side: usize,
+/// A mesh as the tangent generator asks for it.
+struct Corners<'a> {
+    mesh: &'a Mesh,
+    uvs: Vec<Vec2>,
+    /// By corner; `None` where no face with an area says anything.
+    tangents: Vec<Option<[f32; 4]>>,
+}
+
+impl Corners<'_> {
+    fn vertex(&self, face: usize, corner: usize) -> usize {
+        self.mesh.indices[3 * face + corner] as usize
+    }
+}
+
+impl bevy_mikktspace::Geometry for Corners<'_> {
+    fn num_faces(&self) -> usize {
+        self.mesh.indices.len() / 3
+    }
+
+    fn num_vertices_of_face(&self, _face: usize) -> usize {
+        3
+    }
+
+    fn position(&self, face: usize, corner: usize) -> [f32; 3] {
+        self.mesh.vertices[self.vertex(face, corner)].position
+    }
+
+    fn normal(&self, face: usize, corner: usize) -> [f32; 3] {
+        self.mesh.vertices[self.vertex(face, corner)].normal
+    }
+
+    fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
+        self.uvs[self.vertex(face, corner)].to_array()
+    }
+
+    fn set_tangent(&mut self, space: Option<TangentSpace>, face: usize, corner: usize) {
+        // The bitangent of glTF points up the image, and v down it.
+        let encoded = space.map(|space| space.tangent_encoded()).map(|[x, y, z, sign]| [x, y, z, -sign]);
+        self.tangents[3 * face + corner] = encoded;
+    }
 }
 
 fn transformed_uvs(vertices: &[Vertex], texture: &TextureRef) -> Vec<Vec2> {
@@ -124,28 +113,14 @@ fn transformed_uvs(vertices: &[Vertex], texture: &TextureRef) -> Vec<Vec2> {
     vertices.iter().map(uv).collect()
 }
 
-/// For each vertex the first with the same position, normal and coordinates.
-fn weld(vertices: &[Vertex], uvs: &[Vec2]) -> Vec<u32> {
-    let key = |i: usize| (vertices[i].position, vertices[i].normal, uvs[i].to_array());
-    let slots = (2 * vertices.len()).next_power_of_two();
-    let mut table = vec![NONE; slots];
-    let first_equal = |i: usize| {
-        let (position, normal, uv) = key(i);
-        let words = position.into_iter().chain(normal).chain(uv);
-        // Adding zero makes both zeros one: they are equal.
-        let hash = words.fold(0_u64, |hash, x| {
-            (hash.rotate_left(5) ^ u64::from((x + 0.0).to_bits())).wrapping_mul(0x9E37_79B9_7F4A_7C15)
-        });
-        let mut slot = (hash >> 32) as usize % slots;
-        while table[slot] != NONE && key(table[slot] as usize) != key(i) {
-            slot = (slot + 1) % slots;
-        }
-        if table[slot] == NONE {
-            table[slot] = i as u32;
-        }
-        table[slot]
-    };
-    (0..vertices.len()).map(first_equal).collect()
+/// `tangent` across a normal, with a sign of 1 or -1; any where it has no direction there.
+fn orthonormal(tangent: Option<[f32; 4]>, normal: [f32; 3]) -> [f32; 4] {
+    tangent
+        .and_then(|[x, y, z, sign]| {
+            let sign = if sign < 0.0 { -1.0 } else { 1.0 };
+            across(Vec3::new(x, y, z), normal).map(|tangent| tangent.extend(sign).to_array())
+        })
+        .unwrap_or_else(|| any_tangent(normal))
 }
 
 fn any_tangent(normal: [f32; 3]) -> [f32; 4] {
@@ -165,7 +140,6 @@ mod tests {
     use super::super::mesh::{PLAIN_VERTEX, tests::quad};
     use super::super::{Sampler, Wrap};
     use super::*;
-    use bevy_mikktspace::TangentSpace;
 
     fn reading(uv_transform: [[f32; 3]; 2]) -> TextureRef {
         let sampler = Sampler { wrap: [Wrap::Repeat; 2], nearest: false };
@@ -204,85 +178,6 @@ mod tests {
         for (corner, &index) in mesh.indices.iter().enumerate() {
             let expected = if corner < 6 { [1.0, 0.0, 0.0, 1.0] } else { [-1.0, 0.0, 0.0, -1.0] };
             assert_eq!(mesh.vertices[index as usize].tangent, expected, "corner {corner}");
-        }
-    }
-
-    /// What the bevy_mikktspace crate makes of a mesh, by corner.
-    struct Peer<'a> {
-        mesh: &'a Mesh,
-        tangents: Vec<[f32; 4]>,
-    }
-
-    impl Peer<'_> {
-        fn vertex(&self, face: usize, corner: usize) -> &Vertex {
-            &self.mesh.vertices[self.mesh.indices[3 * face + corner] as usize]
-        }
-    }
-
-    impl bevy_mikktspace::Geometry for Peer<'_> {
-        fn num_faces(&self) -> usize {
-            self.mesh.indices.len() / 3
-        }
-
-        fn num_vertices_of_face(&self, _face: usize) -> usize {
-            3
-        }
-
-        fn position(&self, face: usize, corner: usize) -> [f32; 3] {
-            self.vertex(face, corner).position
-        }
-
-        fn normal(&self, face: usize, corner: usize) -> [f32; 3] {
-            self.vertex(face, corner).normal
-        }
-
-        fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
-            self.vertex(face, corner).uv[0]
-        }
-
-        fn set_tangent(&mut self, space: Option<TangentSpace>, face: usize, corner: usize) {
-            let [x, y, z, sign] = space.expect("every face has a tangent").tangent_encoded();
-            self.tangents[3 * face + corner] = [x, y, z, -sign];
-        }
-    }
-
-    /// A hilly sheet of `side` by `side` quads; its texture folds back along the middle.
-    fn sheet(side: u16) -> Mesh {
-        let height = |x: f32, y: f32| 0.3 * (3.0 * x).sin() * (2.0 * y).cos();
-        let at = |i: u16| {
-            let (x, y) = (f32::from(i % (side + 1)), f32::from(i / (side + 1)));
-            let (x, y) = (x / f32::from(side), y / f32::from(side));
-            let slope =
-                Vec3::new(height(x + 0.01, y) - height(x, y), height(x, y + 0.01) - height(x, y), 0.01);
-            let normal = Vec3::new(-slope.x, -slope.y, slope.z).normalize().to_array();
-            let uv = [(x - 0.5).abs() + 0.2 * y * y, y + 0.3 * x * x];
-            Vertex { position: [x, y, height(x, y)], normal, uv: [uv; 2], ..PLAIN_VERTEX }
-        };
-        let quad = |i: u16| {
-            let (low, high) = (u32::from(i), u32::from(i + side + 1));
-            [low, low + 1, high + 1, low, high + 1, high]
-        };
-        let quads = (0..side * (side + 1)).filter(|i| i % (side + 1) != side);
-        let vertices = (0..(side + 1) * (side + 1)).map(at).collect();
-        Mesh { vertices, indices: quads.flat_map(quad).collect(), material: 0 }
-    }
-
-    #[test]
-    fn tangents_are_those_of_mikktspace() {
-        let shared = sheet(12);
-        let corners = shared.indices.iter().map(|&i| shared.vertices[i as usize]).collect();
-        let indices = (0..shared.indices.len() as u32).collect();
-        let unshared = Mesh { vertices: corners, indices, material: 0 };
-        for mut mesh in [shared, unshared] {
-            let mut peer = Peer { mesh: &mesh, tangents: vec![[0.0; 4]; mesh.indices.len()] };
-            bevy_mikktspace::generate_tangents(&mut peer).unwrap();
-            let expected = peer.tangents;
-            mesh.generate_tangents(&reading(TextureRef::IDENTITY));
-            for (corner, (&index, expected)) in mesh.indices.iter().zip(expected).enumerate() {
-                let found = glam::Vec4::from(mesh.vertices[index as usize].tangent);
-                let difference = (found - glam::Vec4::from(expected)).length();
-                assert!(difference < 1e-4, "corner {corner}: {found} for {expected:?}");
-            }
         }
     }
 
