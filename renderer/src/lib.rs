@@ -29,6 +29,7 @@ pub mod layouts;
 pub mod lights;
 pub mod measure;
 pub mod methods;
+mod nearest;
 pub mod output;
 pub mod pass;
 pub mod passes;

@@ -1,8 +1,9 @@
 //! One point of the product of lightings, methods, ways of assignment and tests.
 
-use super::{Assign, Config, LightsFrom, nearest};
+use super::{Assign, Config, LightsFrom};
 use crate::geometry::SphereTest;
 use crate::methods::{MethodSpec, Space};
+use crate::nearest;
 use clap::ValueEnum;
 use std::fmt;
 use std::str::FromStr;

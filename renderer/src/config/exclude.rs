@@ -175,7 +175,7 @@ impl FromStr for Exclude {
                     rule.lights = Some(Counts::Any(counts.map_err(|_| wrong())?));
                 }
                 field => {
-                    return Err(format!("`{field}` is no axis{}", super::nearest::hint(field, &FIELDS)));
+                    return Err(format!("`{field}` is no axis{}", crate::nearest::hint(field, &FIELDS)));
                 }
             }
         }

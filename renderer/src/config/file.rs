@@ -1,6 +1,7 @@
 //! Reading a layer from JSON, with errors that say where: line, column, field, nearest valid name.
 
-use super::{Layer, nearest};
+use super::Layer;
+use crate::nearest;
 use crate::{Error, Result};
 use serde_json::Value;
 use serde_json::value::RawValue;

@@ -116,7 +116,7 @@ pub struct Layer {
     pub trace: Option<ExrFrames>,
 
     /// How a light fades with distance: phy, red, smo, phy_red_1, phy_red_2, phy_smo_1, phy_smo_2, lin or stp.
-    #[arg(long, value_name = "NAME", value_parser = values::attenuation)]
+    #[arg(long, value_name = "NAME")]
     #[serde(default, deserialize_with = "de::attenuation")]
     #[schemars(schema_with = "schema::attenuation")]
     pub attenuation: Option<Attenuation>,

@@ -8,7 +8,6 @@ mod exclude;
 mod file;
 mod frames;
 mod layer;
-pub(crate) mod nearest;
 mod scenes;
 mod schema;
 mod values;

@@ -1,7 +1,8 @@
 //! The JSON Schema of configuration files, generated from [`Layer`].
 
-use super::values::{ATTENUATIONS, MAX_RESOLUTION};
+use super::values::MAX_RESOLUTION;
 use super::{Assign, Config, Layer};
+use crate::lights::Attenuation;
 use clap::ValueEnum;
 use schemars::{Schema, SchemaGenerator, json_schema};
 use serde_json::Value;
@@ -93,6 +94,6 @@ pub(super) fn test(_: &mut SchemaGenerator) -> Schema {
 
 pub(super) fn attenuation(_: &mut SchemaGenerator) -> Schema {
     let names: Vec<Value> =
-        ATTENUATIONS.iter().map(|name| name.to_string().into()).chain([Value::Null]).collect();
+        Attenuation::ALL.iter().map(|name| name.to_string().into()).chain([Value::Null]).collect();
     json_schema!({ "enum": names })
 }

@@ -15,19 +15,6 @@ use std::str::FromStr;
 /// Widest and highest view, pixels.
 pub(super) const MAX_RESOLUTION: u32 = 16384;
 
-/// All attenuation functions, in the order of their enum.
-pub(super) const ATTENUATIONS: [Attenuation; 9] = [
-    Attenuation::Phy,
-    Attenuation::Red,
-    Attenuation::Smo,
-    Attenuation::PhyRed1,
-    Attenuation::PhyRed2,
-    Attenuation::PhySmo1,
-    Attenuation::PhySmo2,
-    Attenuation::Lin,
-    Attenuation::Stp,
-];
-
 /// Reads a method's name.
 pub(super) fn method(text: &str) -> Result<MethodSpec, String> {
     text.parse::<MethodSpec>().map_err(|error| error.to_string())
@@ -36,16 +23,6 @@ pub(super) fn method(text: &str) -> Result<MethodSpec, String> {
 /// Reads the name of a test of sphere against cluster.
 pub(super) fn test(text: &str) -> Result<Test, String> {
     text.parse()
-}
-
-/// Reads an attenuation function's name.
-pub(super) fn attenuation(text: &str) -> Result<Attenuation, String> {
-    let names = ATTENUATIONS.map(|attenuation| attenuation.to_string());
-    let found = ATTENUATIONS.into_iter().zip(&names).find(|(_, name)| *name == text);
-    found.map(|(attenuation, _)| attenuation).ok_or_else(|| {
-        let names = names.each_ref().map(String::as_str);
-        format!("`{text}` is no attenuation function{}", super::nearest::hint(text, &names))
-    })
 }
 
 /// Reads `WxH`.
@@ -345,7 +322,7 @@ pub(super) mod de {
     }
 
     pub fn attenuation<'de, D: Deserializer<'de>>(d: D) -> Result<Option<Attenuation>, D::Error> {
-        checked(d, |name: String| super::attenuation(&name))
+        checked(d, |name: String| name.parse())
     }
 }
 

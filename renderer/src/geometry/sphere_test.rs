@@ -1,6 +1,6 @@
 //! The tests of a sphere against a cluster, by name.
 
-use crate::config::nearest;
+use crate::nearest;
 use std::fmt;
 use std::str::FromStr;
 

@@ -1,6 +1,6 @@
 //! How a light fades with distance.
 
-use crate::{Error, Result};
+use crate::nearest;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -28,7 +28,7 @@ pub enum Attenuation {
     PhySmo2,
     /// I*(R1-d)/R1.
     Lin,
-    /// 4*I/R1^2 for d < R1.
+    /// I for d < R1.
     Stp,
 }
 
@@ -69,12 +69,14 @@ impl fmt::Display for Attenuation {
 }
 
 impl FromStr for Attenuation {
-    type Err = Error;
+    /// What is wrong and what may have been meant.
+    type Err = String;
 
-    fn from_str(name: &str) -> Result<Self> {
-        Self::ALL.into_iter().find(|attenuation| attenuation.name() == name).ok_or_else(|| {
-            let names = Self::ALL.map(Self::name).join(", ");
-            Error::input(format!("`{name}` is no attenuation; choose one of {names}"))
+    fn from_str(name: &str) -> Result<Self, String> {
+        let found = Self::ALL.into_iter().find(|attenuation| attenuation.name() == name);
+        found.ok_or_else(|| {
+            let hint = nearest::hint(name, &Self::ALL.map(Self::name));
+            format!("`{name}` is no attenuation function{hint}")
         })
     }
 }
@@ -86,9 +88,9 @@ impl From<Attenuation> for &'static str {
 }
 
 impl TryFrom<Cow<'_, str>> for Attenuation {
-    type Error = Error;
+    type Error = String;
 
-    fn try_from(name: Cow<'_, str>) -> Result<Self> {
+    fn try_from(name: Cow<'_, str>) -> Result<Self, String> {
         name.parse()
     }
 }
@@ -123,9 +125,9 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_name_is_answered_with_the_known_ones() {
-        let message = "phy_red".parse::<Attenuation>().unwrap_err().to_string();
-        assert!(message.contains("`phy_red`") && message.contains("phy_red_1, phy_red_2"), "{message}");
+    fn an_unknown_name_is_answered_with_what_may_be_meant() {
+        let message = "phy_red".parse::<Attenuation>().unwrap_err();
+        assert_eq!(message, "`phy_red` is no attenuation function; did you mean `phy_red_1`?");
         assert!(serde_json::from_str::<Attenuation>("\"PhyRed2\"").is_err());
     }
 }

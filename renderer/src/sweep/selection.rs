@@ -1,7 +1,7 @@
 //! Which runs of a sweep are made in one sitting.
 
 use super::Part;
-use crate::config::nearest;
+use crate::nearest;
 use crate::{Error, Result};
 use std::fmt;
 use std::str::FromStr;
