@@ -107,7 +107,8 @@ fn compare_values(metric: &str, frames: &BTreeSet<u32>, a: &[u64], b: &[u64]) ->
     let pairs = || a.iter().zip(b);
     let differing = || frames.iter().zip(pairs()).filter(|(_, (a, b))| a != b);
     let ratios: Option<Vec<f64>> = pairs().map(|(&a, &b)| ratio(a, b)).collect();
-    let (sum_a, sum_b) = (a.iter().sum(), b.iter().sum());
+    let sum = |values: &[u64]| values.iter().fold(0_u64, |sum, value| sum.saturating_add(*value));
+    let (sum_a, sum_b) = (sum(a), sum(b));
     CounterComparison {
         metric: metric.to_owned(),
         a: Some(sum_a),

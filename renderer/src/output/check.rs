@@ -3,7 +3,7 @@
 
 use super::manifest::RUN_FORMAT;
 use super::run::MANIFEST;
-use super::strict::{Row, each_row, refuse};
+use super::strict::{Row, each_row, refuse, shown};
 use super::tables::{CLUSTERINGS, FRAMES, HISTOGRAMS, KINDS, TIMINGS};
 use crate::{Error, Result};
 use serde::Deserialize;
@@ -65,9 +65,10 @@ fn read_manifest(path: &Path) -> Result<Announced> {
         .map_err(|error| refuse(path, format!("is no manifest of a run: {error}")))?;
     match announced.format == RUN_FORMAT {
         true => Ok(announced),
-        false => {
-            Err(refuse(path, format!("has format {}, this version reads {RUN_FORMAT}", announced.format)))
-        }
+        false => Err(refuse(
+            path,
+            format!("has format {}, this version reads {RUN_FORMAT}", shown(&announced.format)),
+        )),
     }
 }
 
@@ -113,7 +114,7 @@ fn check_clusterings(path: &Path, frames: &[FrameRow]) -> Result<()> {
         ["dx", "dy", "dz"].into_iter().try_for_each(|side| row.whole::<u32>(side).map(drop))?;
         let hash = row.text("lists_hash");
         if hash.len() != 16 || !hash.bytes().all(|byte| byte.is_ascii_hexdigit()) {
-            return Err(row.refuse(format!("lists_hash `{hash}` is no hash")));
+            return Err(row.refuse(format!("lists_hash `{}` is no hash", shown(hash))));
         }
         let of_frame = sums.entry(found.0).or_default();
         for (sum, column) in of_frame.iter_mut().zip(SUMMED) {
@@ -170,7 +171,7 @@ fn agree(path: &Path, frame: u32, names: [&str; 3], (found, told): ([u64; 3], [u
 fn kind_of(row: &Row<'_>) -> Result<usize> {
     let name = row.text("kind");
     let kind = KINDS.iter().position(|kind| *kind == name);
-    kind.ok_or_else(|| row.refuse(format!("`{name}` is no kind of histogram")))
+    kind.ok_or_else(|| row.refuse(format!("`{}` is no kind of histogram", shown(name))))
 }
 
 /// Every temporal run of every frame has the stages of the first; a device without timestamps gave none at all.
@@ -185,7 +186,7 @@ fn check_timings(path: &Path, frames: &[FrameRow], runs: u32) -> Result<()> {
         row.quantity("cpu_ms")?;
         let (of_place, stage) = (stages.entry(place).or_default(), row.text("stage"));
         if of_place.iter().any(|earlier| earlier == stage) {
-            return Err(row.refuse(format!("stage {stage} comes twice")));
+            return Err(row.refuse(format!("stage {} comes twice", shown(stage))));
         }
         of_place.push(stage.to_owned());
         Ok(())

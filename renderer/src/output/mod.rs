@@ -27,6 +27,7 @@ mod stages;
 mod strict;
 mod summary;
 mod tables;
+mod target;
 mod trace;
 
 #[cfg(test)]

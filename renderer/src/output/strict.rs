@@ -41,7 +41,8 @@ pub fn each_row(
         return Err(Error::file(path, format!("{problem}: {ADVICE}")));
     }
     let broken = |error: csv::Error| broken(path, &error);
-    let mut reader = ReaderBuilder::new().from_reader(bytes.as_slice());
+    // No cell of these tables is quoted: a stray quote must not swallow the lines behind it.
+    let mut reader = ReaderBuilder::new().quoting(false).from_reader(bytes.as_slice());
     let places = places(path, columns, reader.headers().map_err(broken)?)?;
     let mut record = StringRecord::new();
     while reader.read_record(&mut record).map_err(broken)? {
@@ -54,7 +55,7 @@ fn places(path: &Path, columns: &[&'static str], header: &StringRecord) -> Resul
     let refuse = |problem: String| Err(Error::file(path, format!("line 1: {problem}: {ADVICE}")));
     for (place, name) in header.iter().enumerate() {
         if !columns.contains(&name) {
-            return refuse(format!("a column `{name}` is not known"));
+            return refuse(format!("a column `{}` is not known", shown(name)));
         }
         if header.iter().take(place).any(|earlier| earlier == name) {
             return refuse(format!("two columns are called `{name}`"));
@@ -88,14 +89,14 @@ impl Row<'_> {
     /// The whole number of a column.
     pub fn whole<T: FromStr>(&self, column: &str) -> Result<T> {
         let text = self.text(column);
-        text.parse().map_err(|_| self.refuse(format!("{column} `{text}` is no whole number")))
+        text.parse().map_err(|_| self.refuse(format!("{column} `{}` is no whole number", shown(text))))
     }
 
     /// A quantity that is finite and not negative.
     pub fn quantity(&self, column: &str) -> Result<f64> {
         let text = self.text(column);
         let value = text.parse::<f64>().ok().filter(|value| value.is_finite() && *value >= 0.0);
-        value.ok_or_else(|| self.refuse(format!("{column} `{text}` is no finite number from 0 on")))
+        value.ok_or_else(|| self.refuse(format!("{column} `{}` is no finite number from 0 on", shown(text))))
     }
 
     /// A time; `None` where the cell is empty, for nothing was timed.
@@ -108,6 +109,12 @@ impl Row<'_> {
         let line = self.record.position().map_or(0, csv::Position::line);
         Error::file(self.path, format!("line {line}: {problem}: {ADVICE}"))
     }
+}
+
+/// A cell as far as a message has room for it.
+pub fn shown(text: &str) -> String {
+    const MOST: usize = 40;
+    text.chars().take(MOST).flat_map(char::escape_debug).collect()
 }
 
 /// An error about a table as a whole.
