@@ -4,7 +4,7 @@ mod attenuation;
 mod csv_file;
 
 pub use attenuation::Attenuation;
-pub use csv_file::load_csv;
+pub use csv_file::{LightsFile, load_csv};
 
 use crate::rain::Rain;
 use crate::scene::SceneLight;

@@ -88,7 +88,43 @@ impl Check for RainParameters {
     }
 }
 
+/// How flat a box of rain may be: its shortest side over its longest.
+const FLATTEST: f32 = 0.1;
+
 impl RainParameters {
+    /// The default rain in the box from `low` to `high` (metres). Speeds and gravity are scaled with its sides, so that a
+    /// drop falls through it in the same time. A side too short for rain is stretched, upwards or to both sides.
+    pub fn within(low: [f32; 3], high: [f32; 3]) -> Self {
+        let usual = Self::default();
+        let side = |axis: usize| high[axis] - low[axis];
+        let least = (FLATTEST * side(0).max(side(1)).max(side(2))).max(1e-3);
+        let [box_min, box_max] = [-1.0, 1.0].map(|sign: f32| {
+            std::array::from_fn(|axis| {
+                let missing = (least - side(axis)).max(0.0);
+                match (axis, sign < 0.0) {
+                    (1, true) => low[1],
+                    (1, false) => high[1] + missing,
+                    (_, true) => low[axis] - 0.5 * missing,
+                    (_, false) => high[axis] + 0.5 * missing,
+                }
+            })
+        });
+        let scaled = |values: [f32; 3]| -> [f32; 3] {
+            std::array::from_fn(|axis| {
+                let usual_side = usual.box_max[axis] - usual.box_min[axis];
+                values[axis] * ((box_max[axis] - box_min[axis]) / usual_side)
+            })
+        };
+        Self {
+            velocity_min: scaled(usual.velocity_min),
+            velocity_max: scaled(usual.velocity_max),
+            gravity_step: scaled(usual.gravity_step),
+            box_min,
+            box_max,
+            ..usual
+        }
+    }
+
     /// A drop at the start of life `life` (0: the spawn) of light `light`.
     fn start(&self, light: u32, life: u32) -> ([f32; 3], Motion, Pcg32) {
         let mut random = generator(self.seed, light, life);
@@ -254,6 +290,28 @@ mod tests {
     fn bits(light: &PointLight) -> [u32; 6] {
         let ([x, y, z], [r, g, b]) = (light.position, light.tint);
         [x, y, z, r, g, b].map(f32::to_bits)
+    }
+
+    #[test]
+    fn in_the_usual_box_it_is_the_usual_rain_and_elsewhere_it_fills_the_box_at_all_times() {
+        let usual = RainParameters::default();
+        assert_eq!(RainParameters::within(usual.box_min, usual.box_max), usual);
+        for (low, high) in [
+            ([1.0, 2.0, 3.0], [1.5, 2.25, 3.5]),
+            ([-900.0, 0.0, -900.0], [900.0, 0.0, 900.0]),
+            ([5.0; 3], [5.0; 3]),
+        ] {
+            let parameters = RainParameters::within(low, high);
+            for axis in 0..3 {
+                assert!(parameters.box_min[axis] <= low[axis] && parameters.box_max[axis] >= high[axis]);
+            }
+            assert_eq!(parameters.box_min[1], low[1], "nothing falls below the ground");
+            let rain = Rain::new(&parameters, &lighting(2000), DT, 300).unwrap();
+            let middle = 0.5 * (parameters.box_min[1] + parameters.box_max[1]);
+            let above = rain.lights().iter().filter(|light| light.position[1] > middle).count();
+            assert!((600..1400).contains(&above), "{above} of 2000 in the upper half of {parameters:?}");
+            assert!(rain.lights().iter().all(|light| parameters.holds(light.position)));
+        }
     }
 
     #[test]

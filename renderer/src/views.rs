@@ -92,6 +92,12 @@ impl View {
         self.pose.inverse().to_matrix()
     }
 
+    /// Width over height of what a pixel of `resolution` shows, in the plane ahead; 1 for square pixels.
+    pub fn pixel_aspect(&self, [width, height]: [u32; 2]) -> f64 {
+        let size = self.frustum.size();
+        (size.x / f64::from(width)) / (size.y / f64::from(height))
+    }
+
     /// Clip from view, see [`Frustum::clip_from_view`].
     pub fn clip_from_view(&self) -> DMat4 {
         self.frustum.clip_from_view()

@@ -22,5 +22,8 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     let recording = recording::bake(&args.waypoints)?;
     recording.save(&out)?;
     console.note(&format!("{} frames written to {}", recording.frame_count(), out.display()));
+    if recording.rain().is_none() {
+        console.note("it brings no rain: in a replay it rains in the box around the scene");
+    }
     Ok(())
 }

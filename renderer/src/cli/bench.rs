@@ -5,12 +5,14 @@ mod scopes;
 use super::{Console, Interrupt};
 use crate::assign::Assigner;
 use crate::config::{Assign, Case, Config, Layer, Lighting, Test};
-use crate::output::write_whole;
+use crate::output::{prepare_file, write_whole};
 use crate::replay::bench::{AssignBench, BenchRow, bench_assign};
 use crate::replay::{Inputs, Watch};
 use crate::report::assign_bench::{Sample, write_figures};
 use crate::{Error, Result};
 use clap::Subcommand;
+use serde::Serialize;
+use std::fmt;
 use std::path::PathBuf;
 
 /// What to measure.
@@ -90,6 +92,8 @@ fn assign(args: &Args, console: &Console) -> Result<()> {
     let bench = args.bench()?;
     let interrupt = Interrupt::install()?;
     let inputs = Inputs::load(&config)?;
+    inputs.rain_note().into_iter().for_each(|note| console.note(&note));
+    prepare_file(&args.out)?;
     let tests: usize = config.methods.iter().map(|method| bench.tests_of(method).len()).sum();
     let cases = bench.lights.len() * bench.frames.len() * bench.assigners.len() * tests;
     let progress = console.progress(cases as u64 * (u64::from(bench.repeats) + 1));
@@ -105,18 +109,30 @@ fn assign(args: &Args, console: &Console) -> Result<()> {
         rows.iter().try_for_each(|row| csv.serialize(row))?;
         csv.flush()
     })?;
-    for row in &rows {
-        let BenchRow { lights, method, assign, test, frame, gpu_ms, light_indices, .. } = row;
-        console.note(&format!(
-            "{lights} lights, {method}, frame {frame}, {assign}, {test}: {gpu_ms:.3} ms, {light_indices} light indices"
-        ));
-    }
-    console.note(&format!("results are in {}", args.out.display()));
     let samples = rows.iter().map(sample).collect::<Result<Vec<_>>>()?;
-    for path in write_figures(&args.out, &samples)? {
-        console.note(&format!("and in {}", path.display()));
-    }
+    let figures = write_figures(&args.out, &samples)?;
+    console.result(&Rows(rows))?;
+    console.note(&format!("results are in {}", args.out.display()));
+    figures.iter().for_each(|path| console.note(&format!("and in {}", path.display())));
     Ok(())
+}
+
+/// A line a measurement.
+#[derive(Serialize)]
+#[serde(transparent)]
+struct Rows(Vec<BenchRow>);
+
+impl fmt::Display for Rows {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|row| {
+            let BenchRow { lights, method, assign, test, frame, gpu_ms, light_indices, .. } = row;
+            writeln!(
+                f,
+                "{lights} lights, {method}, frame {frame}, {assign}, {test}: {gpu_ms:.3} ms, {light_indices} light \
+                 indices"
+            )
+        })
+    }
 }
 
 /// What figures take of a row.

@@ -1,6 +1,6 @@
 //! `manylight completions`.
 
-use super::{Cli, Console, console};
+use super::{Cli, Console};
 use crate::Result;
 use clap::CommandFactory;
 use clap_complete::Shell;
@@ -14,10 +14,9 @@ pub struct Args {
 }
 
 /// Prints the completion script.
-pub fn run(args: &Args, _console: &Console) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     // Into memory first: clap_complete panics where standard output goes away.
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "manylight", &mut script);
-    console::print(&String::from_utf8_lossy(&script));
-    Ok(())
+    console.print(&String::from_utf8_lossy(&script))
 }

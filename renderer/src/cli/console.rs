@@ -1,11 +1,15 @@
 //! What the program says: results on standard output; errors, notes, logs and the progress bar on standard
-//! error.
+//! error. A result that cannot be printed is an error; what standard error does not take is lost, for nobody is
+//! left to be told.
 
-use crate::Error;
+use crate::output::cause;
+use crate::{Error, Result};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 use std::fmt::Display;
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use tracing_subscriber::EnvFilter;
 
 /// Where output goes, and in which form.
@@ -14,6 +18,8 @@ pub struct Console {
     quiet: bool,
     json: bool,
     bars: MultiProgress,
+    /// Whether the reader of standard output went away before all was printed.
+    unread: Arc<AtomicBool>,
 }
 
 impl Console {
@@ -23,7 +29,7 @@ impl Console {
         if quiet || json || !io::stderr().is_terminal() {
             bars.set_draw_target(ProgressDrawTarget::hidden());
         }
-        Self { quiet: quiet || json, json, bars }
+        Self { quiet: quiet || json, json, bars, unread: Arc::default() }
     }
 
     /// Sends log lines to standard error, as many as `RUST_LOG` asks for (default: warnings).
@@ -41,22 +47,41 @@ impl Console {
     /// Prints a command's result: its `Display` form, or JSON.
     ///
     /// # Errors
-    /// The result cannot be written as JSON.
-    pub fn result(&self, result: &(impl Display + Serialize)) -> crate::Result<()> {
+    /// The result cannot be written as JSON, or not to standard output.
+    pub fn result(&self, result: &(impl Display + Serialize)) -> Result<()> {
         if self.json {
             let text = serde_json::to_string_pretty(result)
                 .map_err(|error| Error::Internal(format!("the result is not JSON: {error}")))?;
-            print(&format!("{text}\n"));
+            self.print(&format!("{text}\n"))
         } else {
-            print(&format!("{}\n", result.to_string().trim_end()));
+            self.print(&format!("{}\n", result.to_string().trim_end()))
         }
-        Ok(())
+    }
+
+    /// Prints text as it stands. A reader that goes away (`| head`) has seen what it wanted: the command goes on, and
+    /// [`Self::unread`] remembers.
+    ///
+    /// # Errors
+    /// Standard output cannot be written.
+    pub(super) fn print(&self, text: &str) -> Result<()> {
+        match print(text) {
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => {
+                self.unread.store(true, Ordering::Relaxed);
+                Ok(())
+            }
+            printed => printed.map_err(|error| not_printed(&error)),
+        }
+    }
+
+    /// Whether the reader of standard output went away before all was printed.
+    pub(super) fn unread(&self) -> bool {
+        self.unread.load(Ordering::Relaxed)
     }
 
     /// Prints a line that is good to know.
     pub fn note(&self, text: &str) {
         if !self.quiet {
-            self.bars.suspend(|| eprintln!("{text}"));
+            self.bars.suspend(|| complain(text));
         }
     }
 
@@ -106,25 +131,38 @@ impl Drop for Progress {
     }
 }
 
-/// Standard error, with the bars out of the way while a log line is written.
+/// Standard error, with the bars out of the way while a log line is written. It never fails: the subscriber would
+/// complain to standard error itself, and panic.
 struct AboveBars {
     bars: MultiProgress,
 }
 
 impl Write for AboveBars {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.bars.suspend(|| io::stderr().write(bytes))
+        let _ = self.bars.suspend(|| io::stderr().write_all(bytes));
+        Ok(bytes.len())
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        io::stderr().flush()
+        Ok(())
     }
 }
 
-/// Writes to standard output. A reader that has gone away (`| head`) is no error.
-pub(super) fn print(text: &str) {
+/// Writes to standard output, all of it.
+pub(super) fn print(text: &str) -> io::Result<()> {
     let mut out = io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    out.write_all(text.as_bytes())?;
+    out.flush()
+}
+
+/// What is said where standard output cannot be written.
+pub(super) fn not_printed(error: &io::Error) -> Error {
+    Error::file("standard output", format!("cannot be written: {}", cause(error)))
+}
+
+/// Writes a line to standard error, or nothing where that cannot be written.
+pub(super) fn complain(line: &str) {
+    let _ = io::stderr().write_all(format!("{line}\n").as_bytes());
 }
 
 /// Writes `error: ...` on one line, or `{"error": {...}}`, to standard error.
@@ -136,7 +174,7 @@ pub(super) fn print_error(message: &str, kind: &str, exit_code: u8, json: bool) 
     } else {
         format!("error: {message}")
     };
-    let _ = writeln!(io::stderr(), "{line}");
+    complain(&line);
 }
 
 fn kind(error: &Error) -> &'static str {

@@ -48,8 +48,12 @@ Exit codes:
   2    something to be mended: a flag, a file, a missing device
   3    some runs of a replay failed; each left OUT/<run>.error.json, and the others are complete
   130  interrupted; the frame was finished and what was complete is kept
+  141  done, but the reader of standard output (`| head`) went away before all was printed
 
 The environment variable RUST_LOG (warn, info, debug, ...) sets how much is logged to standard error.";
+
+/// The exit code where the reader of standard output went away: that of a program which SIGPIPE ends, as shells have it.
+const UNREAD: u8 = 141;
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -85,6 +89,7 @@ pub fn main() -> ExitCode {
     let console = Console::new(cli.quiet, cli.json);
     console.start_logging();
     match dispatch(cli.command, &console) {
+        Ok(()) if console.unread() => ExitCode::from(UNREAD),
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             console.error(&error);

@@ -57,13 +57,17 @@ pub fn run(args: Args, console: &Console) -> Result<()> {
         return close(&config, &table, args.report, console);
     }
     let (outcome, ended) = sweep(&chosen, args.force, console)?;
-    let table = summary(&whole)?;
+    let table = summary(&whole);
     if let Err(error) = ended {
-        if !table.rows.is_empty() {
-            write_summary(&config.out, &table)?;
+        // What ended the sweep is the first thing to say, whatever becomes of the table.
+        if let Ok(table) = &table
+            && !table.rows.is_empty()
+        {
+            write_summary(&config.out, table)?;
         }
         return Err(with_progress(error, &outcome, &chosen));
     }
+    let table = table?;
     if !table.rows.is_empty() {
         close(&config, &table, args.report, console)?;
     }
@@ -86,10 +90,10 @@ fn sweep(chosen: &[Part], force: bool, console: &Console) -> Result<(Outcome, Re
 /// Writes and prints the table, and the report where it is asked for.
 fn close(config: &Config, table: &Summary, report: bool, console: &Console) -> Result<()> {
     write_summary(&config.out, table)?;
+    let written = report.then(|| write_report(std::slice::from_ref(&config.out), None)).transpose()?;
     console.result(table)?;
     console.note(&format!("results are in {}", config.out.display()));
-    if report {
-        let report = write_report(std::slice::from_ref(&config.out), None)?;
+    if let Some(report) = written {
         console.note(&format!("the report is {}", report.page.display()));
     }
     Ok(())

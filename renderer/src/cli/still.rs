@@ -3,7 +3,8 @@
 use super::Console;
 use crate::config::{Config, ExrFrames, FrameRange, Layer};
 use crate::output::{planned_runs, prepare_output, write_exr, write_png};
-use crate::replay::Inputs;
+use crate::replay::{Inputs, shape_note};
+use crate::still::camera::BIRDSEYE;
 use crate::still::{Item, Show, Still, render};
 use crate::{Error, Result};
 use serde::Serialize;
@@ -42,8 +43,13 @@ pub fn run(args: Args, console: &Console) -> Result<()> {
     let run = planned_runs(&config).remove(0);
     run.check()?;
     let inputs = Inputs::load(&config)?;
+    inputs.rain_note().into_iter().for_each(|note| console.note(&note));
     prepare_output(&config.out)?;
     let still = render(&config, &inputs, &run, args.view.as_deref(), &show)?;
+    if still.view != BIRDSEYE {
+        let shape = shape_note(&inputs.recording, args.frame, config.resolution)?;
+        shape.into_iter().for_each(|note| console.note(&note));
+    }
     let stem = format!("{:06}_{}_{}", args.frame, run.method, still.view);
     let [png, exr] = ["png", "exr"].map(|extension| config.out.join(format!("{stem}.{extension}")));
     write_png(&png, &still.image)?;

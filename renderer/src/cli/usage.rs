@@ -1,23 +1,44 @@
 //! Usage errors, in the same one-line form as all others.
 
-use super::console;
+use super::{UNREAD, console};
 use clap::error::ErrorKind;
+use std::ffi::OsString;
+use std::io;
 use std::process::ExitCode;
 
 /// Prints what clap has to say (help and version on standard output, else one line) and gives the exit code.
 pub fn exit(error: &clap::Error) -> ExitCode {
-    if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
-        console::print(&error.render().to_string());
-        return ExitCode::SUCCESS;
+    let arguments: Vec<OsString> = std::env::args_os().collect();
+    let json = arguments.iter().any(|argument| argument == "--json");
+    let refuse = |message: &str| {
+        console::print_error(message, "input", 2, json);
+        ExitCode::from(2)
+    };
+    match error.kind() {
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
+            match console::print(&error.render().to_string()) {
+                Ok(()) => ExitCode::SUCCESS,
+                Err(error) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::from(UNREAD),
+                Err(error) => refuse(&console::not_printed(&error).to_string()),
+            }
+        }
+        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            console::complain(error.render().to_string().trim_end());
+            ExitCode::from(2)
+        }
+        ErrorKind::InvalidUtf8 => refuse(&not_utf8(&arguments)),
+        _ => refuse(&one_line(&error.render().to_string())),
     }
-    let code = ExitCode::from(2);
-    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        eprint!("{}", error.render());
-        return code;
-    }
-    let json = std::env::args_os().any(|argument| argument == "--json");
-    console::print_error(&one_line(&error.render().to_string()), "input", 2, json);
-    code
+}
+
+/// clap does not say which argument it cannot read.
+fn not_utf8(arguments: &[OsString]) -> String {
+    let named: Vec<String> = arguments
+        .iter()
+        .filter(|argument| argument.to_str().is_none())
+        .map(|argument| format!("{argument:?}"))
+        .collect();
+    format!("{} is not UTF-8 text: rename the file", named.join(" and "))
 }
 
 /// Folds clap's message to one line: its tips stay, the usage summary goes.

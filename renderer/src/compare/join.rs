@@ -1,21 +1,26 @@
 //! Joining runs by configuration, and the exact comparison of their counters.
 
-use super::read::{self, Counters, RunEntry};
+use super::read::{self, Counters, Identity, RunEntry};
 use super::{Comparison, CounterComparison, ResultSet, RunComparison, Spread, times};
-use crate::{Error, Result};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::Result;
+use crate::output::{CLUSTERINGS, HISTOGRAMS, Older, check_run, newest_of_each};
+use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Tables beside `frames.csv` that hold counters alone.
-const TABLES: [&str; 2] = ["clusterings.csv", "histograms.csv"];
+/// Tables beside `frames.csv` that hold counters alone, with their columns.
+const TABLES: [(&str, &[&str]); 2] = [("clusterings.csv", &CLUSTERINGS), ("histograms.csv", &HISTOGRAMS)];
 
 pub(super) fn join(a: &Path, b: &Path) -> Result<Comparison> {
     let [mut runs_a, mut runs_b] = [read::find_runs(a)?, read::find_runs(b)?];
-    if twins(&runs_a).or(twins(&runs_b)).is_some() {
+    // Results of earlier versions do not know what their lights file held.
+    let known = |run: &RunEntry| run.lights_file.as_ref().is_none_or(|(_, sha256)| sha256.is_some());
+    let by_content = runs_a.iter().chain(&runs_b).all(known);
+    runs_a.iter_mut().chain(&mut runs_b).for_each(|run| run.tell_by_lights(by_content));
+    let older = [keep_newest(&mut runs_a), keep_newest(&mut runs_b)].concat();
+    runs_a.iter().chain(&runs_b).try_for_each(|run| check_run(&run.directory))?;
+    if has_twins(&runs_a) || has_twins(&runs_b) {
         runs_a.iter_mut().chain(&mut runs_b).for_each(RunEntry::tell_by_way);
     }
-    check_distinct(a, &runs_a)?;
-    check_distinct(b, &runs_b)?;
     let twin = |run: &RunEntry, others: &[RunEntry]| others.iter().position(|o| o.identity == run.identity);
     let mut runs = vec![];
     let mut missing_in_b = vec![];
@@ -27,25 +32,27 @@ pub(super) fn join(a: &Path, b: &Path) -> Result<Comparison> {
     }
     let missing_in_a =
         runs_b.iter().filter(|run| twin(run, &runs_a).is_none()).map(|run| run.label.clone()).collect();
-    Ok(Comparison { a: result_set(a, &runs_a), b: result_set(b, &runs_b), runs, missing_in_a, missing_in_b })
+    let [a, b] = [result_set(a, &runs_a), result_set(b, &runs_b)];
+    Ok(Comparison { a, b, older, runs, missing_in_a, missing_in_b })
 }
 
-/// Two runs that were asked to do the same.
-fn twins(runs: &[RunEntry]) -> Option<[&RunEntry; 2]> {
-    let mut seen = BTreeMap::new();
-    runs.iter().find_map(|run| seen.insert(&run.identity, run).map(|earlier| [earlier, run]))
+/// Whether two runs differ in their ways alone.
+fn has_twins(runs: &[RunEntry]) -> bool {
+    let distinct: BTreeSet<&Identity> = runs.iter().map(|run| &run.identity).collect();
+    distinct.len() < runs.len()
 }
 
-fn check_distinct(directory: &Path, runs: &[RunEntry]) -> Result<()> {
-    let Some([earlier, run]) = twins(runs) else { return Ok(()) };
-    Err(Error::file(
-        directory,
-        format!(
-            "{} and {} are runs of one configuration: compare directories in which each has one run",
-            earlier.directory.display(),
-            run.directory.display()
-        ),
-    ))
+/// Of runs that were asked to do the same, in the same way, leaves the newest; says which were older.
+fn keep_newest(runs: &mut Vec<RunEntry>) -> Vec<Older> {
+    let key = |run: &RunEntry| ((run.identity.clone(), run.way.clone()), run.age.clone());
+    let newest = newest_of_each(&runs.iter().map(key).collect::<Vec<_>>());
+    let directory = |index: usize| runs[index].directory.display().to_string();
+    let pairs = newest.iter().enumerate().filter(|(index, newest)| index != *newest);
+    let older =
+        pairs.map(|(index, &newest)| Older { run: directory(index), newer: directory(newest) }).collect();
+    let mut index = 0..;
+    runs.retain(|_| index.next().is_some_and(|index| newest[index] == index));
+    older
 }
 
 fn result_set(directory: &Path, runs: &[RunEntry]) -> ResultSet {
@@ -100,7 +107,8 @@ fn compare_values(metric: &str, frames: &BTreeSet<u32>, a: &[u64], b: &[u64]) ->
     let pairs = || a.iter().zip(b);
     let differing = || frames.iter().zip(pairs()).filter(|(_, (a, b))| a != b);
     let ratios: Option<Vec<f64>> = pairs().map(|(&a, &b)| ratio(a, b)).collect();
-    let (sum_a, sum_b) = (a.iter().sum(), b.iter().sum());
+    let sum = |values: &[u64]| values.iter().fold(0_u64, |sum, value| sum.saturating_add(*value));
+    let (sum_a, sum_b) = (sum(a), sum(b));
     CounterComparison {
         metric: metric.to_owned(),
         a: Some(sum_a),
@@ -118,7 +126,7 @@ fn ratio(a: u64, b: u64) -> Option<f64> {
 }
 
 fn compare_tables(
-    table: &str,
+    table: (&str, &[&'static str]),
     a: &RunEntry,
     b: &RunEntry,
     frames: &BTreeSet<u32>,
@@ -126,7 +134,7 @@ fn compare_tables(
     let [a, b] = [read::rows_by_frame(&a.directory, table)?, read::rows_by_frame(&b.directory, table)?];
     let differing: Vec<u32> = frames.iter().filter(|frame| a.get(frame) != b.get(frame)).copied().collect();
     Ok(CounterComparison {
-        metric: table.to_owned(),
+        metric: table.0.to_owned(),
         a: None,
         b: None,
         ratio: None,

@@ -13,6 +13,7 @@ mod times;
 mod tests;
 
 use crate::Result;
+use crate::output::Older;
 use serde::Serialize;
 use std::path::Path;
 
@@ -23,6 +24,8 @@ pub struct Comparison {
     pub a: ResultSet,
     /// The other.
     pub b: ResultSet,
+    /// Runs that are left out, for the same set has them newer.
+    pub older: Vec<Older>,
     /// Runs that both have, in A's order.
     pub runs: Vec<RunComparison>,
     /// Runs of B that A lacks.
@@ -119,8 +122,7 @@ pub struct Spread {
 /// Compares every run under `a` with the run of the same configuration under `b`.
 ///
 /// # Errors
-/// A directory that is missing or holds no run, two runs of one configuration in one set, a file that is no
-/// result of this version.
+/// A directory that is missing or holds no run, a file that is damaged or no result of this version.
 pub fn compare(a: &Path, b: &Path) -> Result<Comparison> {
     join::join(a, b)
 }

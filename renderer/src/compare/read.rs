@@ -1,6 +1,6 @@
 //! Reading result sets: which runs there are, and the tables of one run.
 
-use crate::output::{self, RUN_FORMAT};
+use crate::output::{self, Age, FRAMES, RUN_FORMAT, TIMINGS, each_row};
 use crate::{Error, Result};
 use serde::Deserialize;
 use serde_json::{Map, Value};
@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 
 /// The fields of a configuration that decide what a run counts; the others say where results go, or how
 /// often and on what they are measured.
-const IDENTITY: [&str; 7] =
-    ["resolution", "msaa", "attenuation", "marking", "displaced_volume", "lights_file", "scene_lights"];
+const IDENTITY: [&str; 6] =
+    ["resolution", "msaa", "attenuation", "marking", "displaced_volume", "scene_lights"];
 
 /// How lists were built, and what decided who is on them: beside the others, these tell the runs of a sweep apart. Where
 /// they need not, runs are joined across them: so two ways or tests are compared.
@@ -26,6 +26,10 @@ pub(super) struct RunEntry {
     pub identity: Identity,
     /// By which of [`WAY`].
     pub way: [String; 2],
+    /// The file of static lights as it was spelled, and its SHA-256, which earlier versions left out.
+    pub lights_file: Option<(String, Option<String>)>,
+    /// Of runs that were asked to do the same, the greatest is the newest.
+    pub age: Age,
     pub directory: PathBuf,
     /// What tells it from other runs, for people.
     pub label: String,
@@ -42,7 +46,10 @@ struct RunFile {
     config: Map<String, Value>,
     scene: NamedInput,
     recording: NamedInput,
+    lights_file: Option<NamedInput>,
     device: Device,
+    #[serde(default)]
+    started: String,
 }
 
 #[derive(Deserialize)]
@@ -78,6 +85,12 @@ fn read_entry(directory: &Path) -> Result<RunEntry> {
     Ok(RunEntry {
         identity: identity(&run),
         way: WAY.map(|field| run.config.get(field).and_then(Value::as_str).unwrap_or("?").to_owned()),
+        lights_file: run
+            .config
+            .get("lights_file")
+            .and_then(Value::as_str)
+            .map(|path| (path.to_owned(), run.lights_file.as_ref().map(|input| input.sha256.clone()))),
+        age: output::age(directory, &run.started),
         label: label(&run),
         directory: directory.to_owned(),
         program: format!("manylight {} ({:.12})", run.version, run.git_revision),
@@ -86,6 +99,15 @@ fn read_entry(directory: &Path) -> Result<RunEntry> {
 }
 
 impl RunEntry {
+    /// Counts the file of static lights among what the run was asked to do: by what it holds, or by how it was spelled.
+    pub fn tell_by_lights(&mut self, by_content: bool) {
+        let lights = self.lights_file.as_ref();
+        self.identity.extend(lights.map(|(path, sha256)| match sha256 {
+            Some(sha256) if by_content => sha256.clone(),
+            _ => path.clone(),
+        }));
+    }
+
     /// Counts the way among what the run was asked to do.
     pub fn tell_by_way(&mut self) {
         self.identity.extend(self.way.clone());
@@ -110,7 +132,10 @@ fn label(run: &RunFile) -> String {
             let (count, intensity) = (part("count"), part("intensity"));
             format!("{count} lights (I {intensity}, I0 {}, R0 {})", part("cutoff"), part("r0"))
         }
-        _ => config("lights_file").as_str().unwrap_or("lights of the scene").to_owned(),
+        _ => match &run.lights_file {
+            Some(input) => input_name(input),
+            None => config("lights_file").as_str().unwrap_or("lights of the scene").to_owned(),
+        },
     };
     let size: Vec<String> =
         config("resolution").as_array().into_iter().flatten().map(Value::to_string).collect();
@@ -136,29 +161,20 @@ fn input_name(input: &NamedInput) -> String {
 #[derive(Debug, Default)]
 pub(super) struct Counters {
     /// Names of the counters.
-    pub columns: Vec<String>,
+    pub columns: Vec<&'static str>,
     /// A value a counter.
     pub frames: BTreeMap<u32, Vec<u64>>,
 }
 
 /// The counters of `frames.csv`.
 pub(super) fn counters(directory: &Path) -> Result<Counters> {
-    let path = directory.join("frames.csv");
-    let mut table = Counters::default();
-    let mut kept = vec![];
-    for_each_row(&path, |header, row| {
-        if kept.is_empty() {
-            kept = (0..header.len()).filter(|&column| is_counter(&header[column])).collect();
-            table.columns = kept.iter().map(|&column| header[column].to_owned()).collect();
-        }
-        let values: Option<Vec<u64>> = kept.iter().map(|&column| row[column].parse().ok()).collect();
-        let values = values.ok_or("a counter is no whole number")?;
-        table.frames.insert(frame_of(header, row)?, values);
+    let columns = FRAMES.into_iter().filter(|column| is_counter(column));
+    let mut table = Counters { columns: columns.collect(), ..Counters::default() };
+    each_row(&directory.join("frames.csv"), &FRAMES, |row| {
+        let values = table.columns.iter().map(|column| row.whole(column)).collect::<Result<_>>()?;
+        table.frames.insert(row.whole("frame")?, values);
         Ok(())
     })?;
-    if table.frames.is_empty() {
-        return Err(Error::file(&path, "holds no frames: run it again"));
-    }
     Ok(table)
 }
 
@@ -166,12 +182,15 @@ fn is_counter(column: &str) -> bool {
     !matches!(column, "frame" | "time_s") && !column.contains("_ms")
 }
 
-/// All other cells of a table of counters, a text a frame.
-pub(super) fn rows_by_frame(directory: &Path, table: &str) -> Result<BTreeMap<u32, String>> {
+/// The cells of a table of counters (its name, its columns), a text a frame.
+pub(super) fn rows_by_frame(
+    directory: &Path,
+    (name, columns): (&str, &[&'static str]),
+) -> Result<BTreeMap<u32, String>> {
     let mut frames: BTreeMap<u32, String> = BTreeMap::new();
-    for_each_row(&directory.join(table), |header, row| {
-        let text = frames.entry(frame_of(header, row)?).or_default();
-        row.iter().for_each(|cell| text.extend([cell, ","]));
+    each_row(&directory.join(name), columns, |row| {
+        let text = frames.entry(row.whole("frame")?).or_default();
+        columns.iter().for_each(|column| text.extend([row.text(column), ","]));
         text.push('\n');
         Ok(())
     })?;
@@ -188,49 +207,11 @@ pub(super) struct TimingRow<'a> {
 
 /// Goes through `timings.csv`; stages without a GPU time are left out.
 pub(super) fn timings(directory: &Path, mut each: impl FnMut(&TimingRow)) -> Result<()> {
-    for_each_row(&directory.join("timings.csv"), |header, row| {
-        let number = |column: &str| cell(header, row, column)?.parse().map_err(|_| "a number is none");
-        let gpu_ms: f64 = cell(header, row, "gpu_ms")?.parse().map_err(|_| "a time is no number")?;
-        if gpu_ms.is_finite() {
-            let stage = cell(header, row, "stage")?;
-            each(&TimingRow { run: number("run")?, frame: number("frame")?, stage, gpu_ms });
+    each_row(&directory.join("timings.csv"), &TIMINGS, |row| {
+        if let Some(gpu_ms) = row.optional("gpu_ms")? {
+            let (run, frame) = (row.whole("run")?, row.whole("frame")?);
+            each(&TimingRow { run, frame, stage: row.text("stage"), gpu_ms });
         }
         Ok(())
     })
-}
-
-fn frame_of(header: &csv::StringRecord, row: &csv::StringRecord) -> Result<u32, &'static str> {
-    cell(header, row, "frame")?.parse().map_err(|_| "the frame is no whole number")
-}
-
-fn cell<'a>(
-    header: &csv::StringRecord,
-    row: &'a csv::StringRecord,
-    column: &str,
-) -> Result<&'a str, &'static str> {
-    let position = header.iter().position(|name| name == column).ok_or("a column of the table is missing")?;
-    Ok(&row[position])
-}
-
-fn for_each_row(
-    path: &Path,
-    mut each: impl FnMut(&csv::StringRecord, &csv::StringRecord) -> Result<(), &'static str>,
-) -> Result<()> {
-    let failed = |error: csv::Error| match error.into_kind() {
-        csv::ErrorKind::Io(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            Error::file(path, "is missing beside its run.json: run it again")
-        }
-        csv::ErrorKind::Io(error) => Error::file(path, format!("cannot be read: {error}")),
-        _ => Error::file(path, "is damaged: run it again"),
-    };
-    let mut reader = csv::Reader::from_path(path).map_err(failed)?;
-    let header = reader.headers().map_err(failed)?.clone();
-    let mut row = csv::StringRecord::new();
-    while reader.read_record(&mut row).map_err(failed)? {
-        each(&header, &row).map_err(|message| {
-            let line = row.position().map_or(0, csv::Position::line);
-            Error::file(path, format!("line {line}: {message}: run it again"))
-        })?;
-    }
-    Ok(())
 }

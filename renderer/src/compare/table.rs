@@ -13,6 +13,7 @@ impl fmt::Display for Comparison {
         if self.a.devices != self.b.devices {
             writeln!(f, "The devices differ, so ratios of times compare machines.")?;
         }
+        self.older.iter().try_for_each(|older| writeln!(f, "{older}"))?;
         for run in &self.runs {
             writeln!(f, "\n{}", run.run)?;
             display_run(f, run)?;

@@ -11,7 +11,11 @@ struct Fixture {
     frames: Vec<(u32, u64)>,
     /// By run: milliseconds of every frame.
     runs: Vec<f64>,
-    histogram: &'static str,
+    /// Lights in every cluster.
+    lights_per_cluster: u32,
+    /// A file of static lights instead of the rain: its path and its SHA-256.
+    lights_file: Option<[&'static str; 2]>,
+    started: &'static str,
 }
 
 impl Default for Fixture {
@@ -23,7 +27,9 @@ impl Default for Fixture {
             out: "one",
             frames: vec![(0, 100), (40, 50)],
             runs: vec![8.0, 8.4],
-            histogram: "0,0,lights_per_cluster,3,1,1\n",
+            lights_per_cluster: 3,
+            lights_file: None,
+            started: "2026-01-01T00:00:00Z",
         }
     }
 }
@@ -32,22 +38,38 @@ impl Fixture {
     fn write(&self, directory: PathBuf) {
         fs::create_dir_all(&directory).unwrap();
         let write = |name: &str, text: String| fs::write(directory.join(name), text).unwrap();
-        let manifest = serde_json::json!({
+        let mut manifest = serde_json::json!({
             "format": "manylight.run/1", "version": "0.1.0", "git_revision": "abc", "method": self.method,
             "lighting": { "count": 1000, "intensity": 100.0, "cutoff": 0.5, "r0": 0.1 },
             "config": { "resolution": [64, 40], "msaa": 1, "marking": "depth", "attenuation": "phy", "out": self.out,
-                "assign": "brute", "test": self.test },
+                "assign": "brute", "test": self.test, "runs": self.runs.len() },
             "scene": { "name": "street", "sha256": self.scene_sha },
             "recording": { "name": "bistro", "sha256": "bbbbbbbbbbbb" },
             "device": { "name": "llvmpipe", "driver": "Mesa" },
+            "started": self.started,
         });
+        if let Some([path, sha256]) = self.lights_file {
+            manifest["lighting"] = serde_json::Value::Null;
+            manifest["config"]["lights_file"] = path.into();
+            manifest["lights_file"] = serde_json::json!({ "name": "lights.csv", "sha256": sha256 });
+        }
         write("run.json", manifest.to_string());
-        let mut frames = "frame,time_s,visible_clusters,gpu_ms_frame\n".to_owned();
-        let mut clusterings = "frame,clustering,lists_hash\n".to_owned();
+        let mut frames = "frame,time_s,views,clusterings,clusters,visible_clusters,light_indices,lighting_computations,\
+            needed_computations,intersection_tests,fragments_shaded,fragments_without_cluster,light_indices_dropped,\
+            visible_clusters_dropped,gpu_ms_frame,gpu_ms_cluster,gpu_ms_visibility,gpu_ms_count_lights,\
+            gpu_ms_assign_lights,gpu_ms_shade\n"
+            .to_owned();
+        let mut clusterings =
+            "frame,clustering,dx,dy,dz,visible_clusters,light_indices,intersection_tests,lists_hash\n"
+                .to_owned();
         let mut timings = "run,frame,stage,gpu_ms,cpu_ms\n".to_owned();
+        let mut histograms = "frame,clustering,kind,bin,clusters,fragments\n".to_owned();
+        let gpu_ms = if self.runs.is_empty() { "" } else { "1.0" };
         for (frame, count) in &self.frames {
-            frames += &format!("{frame},0.5,{count},1.0\n");
-            clusterings += &format!("{frame},0,{count:016x}\n");
+            frames += &format!("{frame},0.5,1,1,999,{count},7,5,5,9,0,0,0,0,{gpu_ms},,,,,\n");
+            clusterings += &format!("{frame},0,1,2,3,{count},7,9,{count:016x}\n");
+            histograms += &format!("{frame},0,lights_per_cluster,{},{count},1\n", self.lights_per_cluster);
+            histograms += &format!("{frame},0,fragments_per_cluster,1,{count},1\n");
             for (run, ms) in self.runs.iter().enumerate() {
                 timings += &format!("{run},{frame},frame,{ms},1\n");
                 timings += &format!("{run},{frame},frame/shade[0],{},1\n", ms / 4.0);
@@ -57,7 +79,7 @@ impl Fixture {
         write("frames.csv", frames);
         write("clusterings.csv", clusterings);
         write("timings.csv", timings);
-        write("histograms.csv", format!("frame,clustering,kind,bin,clusters,fragments\n{}", self.histogram));
+        write("histograms.csv", histograms);
     }
 }
 
@@ -67,6 +89,10 @@ fn compare_runs(a: &Fixture, b: &Fixture) -> Comparison {
     a.write(root.path().join("a/run"));
     b.write(root.path().join("b/shards/0/other name"));
     compare(&root.path().join("a"), &root.path().join("b")).unwrap()
+}
+
+fn counter<'c>(comparison: &'c Comparison, metric: &str) -> &'c CounterComparison {
+    comparison.runs[0].counters.iter().find(|counter| counter.metric == metric).unwrap()
 }
 
 fn refused(a: &Path, b: &Path) -> String {
@@ -80,11 +106,14 @@ fn equal_runs_are_joined_wherever_they_lie_and_whatever_their_output_was_called(
     let same = compare_runs(&Fixture::default(), &Fixture { out: "two", ..Fixture::default() });
     assert_eq!(same.difference(), None);
     assert_eq!(same.runs.len(), 1);
-    let visible = &same.runs[0].counters[0];
+    let visible = counter(&same, "visible_clusters");
     assert_eq!((visible.a, visible.b, visible.ratio), (Some(150), Some(150), Some(1.0)));
     let metrics: Vec<&str> = same.runs[0].counters.iter().map(|counter| counter.metric.as_str()).collect();
-    assert_eq!(metrics, ["visible_clusters", "clusterings.csv", "histograms.csv"]);
-    assert!(same.to_string().contains("counters: all 3 equal in 2 frames"), "{same}");
+    assert_eq!(
+        metrics[metrics.len() - 3..],
+        ["visible_clusters_dropped", "clusterings.csv", "histograms.csv"]
+    );
+    assert!(same.to_string().contains("counters: all 14 equal in 2 frames"), "{same}");
 }
 
 #[test]
@@ -107,11 +136,11 @@ fn runs_are_joined_by_test_where_a_set_has_several_and_across_tests_where_not() 
 fn a_counter_that_differs_in_one_frame_is_found() {
     let b = Fixture { frames: vec![(0, 100), (40, 75)], ..Fixture::default() };
     let comparison = compare_runs(&Fixture::default(), &b);
-    let visible = &comparison.runs[0].counters[0];
+    let visible = counter(&comparison, "visible_clusters");
     assert_eq!((visible.frames_differing, visible.first_difference), (1, Some(40)));
     assert_eq!(visible.over_frames, Some(Spread { min: 1.0, median: 1.25, max: 1.5 }));
     assert_eq!(visible.ratio, Some(175.0 / 150.0));
-    let lists = &comparison.runs[0].counters[1];
+    let lists = counter(&comparison, "clusterings.csv");
     assert_eq!((lists.frames_differing, lists.first_difference), (1, Some(40)));
     assert_eq!(
         comparison.difference().as_deref(),
@@ -122,7 +151,7 @@ fn a_counter_that_differs_in_one_frame_is_found() {
 
 #[test]
 fn a_histogram_that_differs_is_found() {
-    let b = Fixture { histogram: "0,0,lights_per_cluster,4,1,1\n", ..Fixture::default() };
+    let b = Fixture { lights_per_cluster: 4, ..Fixture::default() };
     assert!(compare_runs(&Fixture::default(), &b).difference().is_some());
 }
 
@@ -192,19 +221,14 @@ fn times_are_ratios_of_minima_and_count_beyond_the_noise_of_the_runs() {
 #[test]
 fn what_cannot_be_compared_is_said_in_one_line() {
     let root = tempfile::tempdir().unwrap();
-    let [good, empty, twice, broken] =
-        ["good", "empty", "twice", "broken"].map(|name| root.path().join(name));
+    let [good, empty, broken] = ["good", "empty", "broken"].map(|name| root.path().join(name));
     Fixture::default().write(good.join("run"));
     fs::create_dir(&empty).unwrap();
-    Fixture::default().write(twice.join("x"));
-    Fixture::default().write(twice.join("y"));
     assert!(refused(&good, &root.path().join("nowhere")).contains("nowhere"));
     assert!(refused(&empty, &good).contains("holds no result"));
-    assert!(refused(&good, &twice).contains("one configuration"));
     Fixture::default().write(broken.clone());
     for (file, text, expected) in [
         ("timings.csv", "run,frame,stage,gpu_ms,cpu_ms\n0,0,frame,fast,1\n", "line 2"),
-        ("frames.csv", "frame,time_s,visible_clusters\n0,0,x\n", "line 2"),
         ("run.json", "{\"format\": \"manylight.run/9\"}", "manylight.run/1"),
         ("run.json", "{\"format\"", "no JSON"),
     ] {
@@ -213,11 +237,50 @@ fn what_cannot_be_compared_is_said_in_one_line() {
         assert!(message.contains(file) && message.contains(expected), "{message}");
     }
     Fixture::default().write(broken.clone());
-    for (text, expected) in [("", "no frames"), ("frame,time_s,visible_clusters\n0,0", "is damaged")] {
-        fs::write(broken.join("frames.csv"), text).unwrap();
-        assert!(refused(&broken, &good).contains(expected), "{text}");
-    }
+    fs::write(broken.join("frames.csv"), "").unwrap();
+    assert!(refused(&broken, &good).contains("frames.csv: is empty"));
+    Fixture::default().write(broken.clone());
     assert!(refused(&good.join("run/run.json"), &good).contains("is no directory"));
     fs::remove_file(good.join("run/frames.csv")).unwrap();
-    assert!(refused(&good, &twice.join("x")).contains("frames.csv"));
+    assert!(refused(&good, &broken).contains("frames.csv: is missing"));
+}
+
+#[test]
+fn of_one_run_in_two_directories_the_newer_is_compared_and_the_other_named() {
+    let root = tempfile::tempdir().unwrap();
+    let [a, b] = ["a", "b"].map(|name| root.path().join(name));
+    let newer = Fixture { started: "2026-02-01T00:00:00Z", frames: vec![(0, 100)], ..Fixture::default() };
+    newer.write(a.join("indi-persp-64"));
+    Fixture::default().write(a.join("indi-persp-64_brute"));
+    newer.write(b.join("run"));
+    let comparison = compare(&a, &b).unwrap();
+    assert_eq!((comparison.runs.len(), comparison.difference()), (1, None));
+    let older = &comparison.older[0];
+    assert!(older.run.ends_with("indi-persp-64_brute") && older.newer.ends_with("indi-persp-64"), "{older}");
+    assert!(comparison.to_string().contains("is the same run, made later"), "{comparison}");
+}
+
+#[test]
+fn a_lights_file_is_known_by_what_it_holds() {
+    let with = |path, sha256| Fixture { lights_file: Some([path, sha256]), ..Fixture::default() };
+    let same = compare_runs(&with("lights.csv", "aaaaaaaaaaaa"), &with("./x/lights.csv", "aaaaaaaaaaaa"));
+    assert_eq!((same.runs.len(), same.difference()), (1, None));
+    let other = compare_runs(&with("lights.csv", "aaaaaaaaaaaa"), &with("lights.csv", "bbbbbbbbbbbb"));
+    assert_eq!(other.runs.len(), 0);
+    assert!(other.missing_in_b[0].contains("lights.csv (aaaaaaaa)"), "{other}");
+    assert!(other.missing_in_a[0].contains("lights.csv (bbbbbbbb)"), "{other}");
+}
+
+#[test]
+fn lights_files_of_earlier_versions_are_known_by_their_paths() {
+    let root = tempfile::tempdir().unwrap();
+    let [a, b] = ["a", "b"].map(|name| root.path().join(name));
+    let with = Fixture { lights_file: Some(["lights.csv", "aaaaaaaaaaaa"]), ..Fixture::default() };
+    with.write(a.join("run"));
+    with.write(b.join("run"));
+    let path = a.join("run/run.json");
+    let mut manifest: serde_json::Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+    manifest.as_object_mut().unwrap().remove("lights_file");
+    fs::write(&path, manifest.to_string()).unwrap();
+    assert_eq!(compare(&a, &b).unwrap().runs.len(), 1);
 }

@@ -105,9 +105,16 @@ pub(super) fn check_text(text: String) -> Result<String, String> {
     if text.trim().is_empty() { Err("empty: it must name something".into()) } else { Ok(text) }
 }
 
-/// Refuses a path that names nothing.
+/// Refuses a path that names nothing, or is no text.
 pub(super) fn check_path(path: &Path) -> Result<(), String> {
-    if path.as_os_str().is_empty() { Err("empty: it must name a file or directory".into()) } else { Ok(()) }
+    if path.as_os_str().is_empty() {
+        return Err("empty: it must name a file or directory".into());
+    }
+    match path.to_str() {
+        // run.json is JSON, and a run's configuration can be replayed from there.
+        None => Err(format!("{path:?} is not UTF-8 text: rename it")),
+        Some(_) => Ok(()),
+    }
 }
 
 /// A lighting as JSON carries it: all but the count may be left out.

@@ -3,10 +3,20 @@
 use super::PointLight;
 use crate::{Error, Result};
 use csv::{ReaderBuilder, StringRecord, Trim};
+use sha2::{Digest, Sha256};
 use std::path::Path;
 
 /// Columns in the order of a [`PointLight`]'s values; the last one may be missing.
 const COLUMNS: [&str; 10] = ["x", "y", "z", "r", "g", "b", "i", "i0", "r0", "r1"];
+
+/// Lights of a file, which is known by what it holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LightsFile {
+    /// In the order of the file's rows.
+    pub lights: Vec<PointLight>,
+    /// Hexadecimal SHA-256 of the file.
+    pub sha256: String,
+}
 
 /// Reads lights from a CSV file with a header, one light a row: position `x,y,z` in metres, linear tint `r,g,b`,
 /// intensity `i`, cut-off `i0`, near radius `r0` and influence radius `r1` in metres, columns in any order.
@@ -15,10 +25,12 @@ const COLUMNS: [&str; 10] = ["x", "y", "z", "r", "g", "b", "i", "i0", "r0", "r1"
 /// # Errors
 /// [`Error::File`] with line and column where the file cannot be read, has not these columns, holds no light, or
 /// a value is not what a light can have.
-pub fn load_csv(path: impl AsRef<Path>) -> Result<Vec<PointLight>> {
+pub fn load_csv(path: impl AsRef<Path>) -> Result<LightsFile> {
     let path = path.as_ref();
     let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
-    read(&bytes).map_err(|message| Error::file(path, message))
+    let lights = read(&bytes).map_err(|message| Error::file(path, message))?;
+    let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    Ok(LightsFile { lights, sha256 })
 }
 
 fn read(bytes: &[u8]) -> Result<Vec<PointLight>, String> {
@@ -99,6 +111,20 @@ mod tests {
         };
         assert_eq!(lights[0], first);
         assert_eq!((lights[1].r0, lights[1].r1), (0.25, 4.0));
+    }
+
+    #[test]
+    fn a_file_is_known_by_what_it_holds() {
+        let directory = tempfile::tempdir().unwrap();
+        let [a, b, c] = ["a.csv", "b.csv", "c.csv"].map(|name| directory.path().join(name));
+        let text = format!("{HEADER}1,2,3,1,1,1,100,0.5,0.1,\n");
+        std::fs::write(&a, &text).unwrap();
+        std::fs::write(&b, &text).unwrap();
+        std::fs::write(&c, text.replace("100", "101")).unwrap();
+        let hash = |path: &Path| load_csv(path).unwrap().sha256;
+        assert_eq!(hash(&a), hash(&b));
+        assert_ne!(hash(&a), hash(&c));
+        assert_eq!(hash(&a).len(), 64);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Whole or not at all: files and directories appear under their names only when complete.
 
+use super::target::{Target, followed, target};
 use crate::{Error, Result};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -7,14 +8,50 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 /// Writes a file under a temporary name beside `path`, then renames it over `path`. Missing parent directories
-/// are made.
+/// are made, links are followed, and a pipe is written as it is.
 ///
 /// # Errors
-/// The directory or the file cannot be written; nothing of it is left then.
+/// The directory or the file cannot be written; nothing of it is left then. What stands at `path` is a directory or a
+/// device, which a file would replace.
 pub fn write_whole(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<()> {
-    let parent = parent_of(path);
-    make_directory(parent)?;
-    replace_file(path, parent, write).map_err(|error| cannot_write(path, &error))
+    let written = match target(path)? {
+        Target::Pipe => write_pipe(path, write),
+        Target::File(file) => {
+            let parent = parent_of(&file);
+            make_directory(parent)?;
+            replace_file(&file, parent, write)
+        }
+    };
+    written.map_err(|error| cannot_write(path, &error))
+}
+
+/// Tries where a file will be written, so that an hour's work does not end at a wall.
+///
+/// # Errors
+/// As [`write_whole`].
+pub fn prepare_file(path: &Path) -> Result<()> {
+    match target(path)? {
+        Target::Pipe => Ok(()),
+        Target::File(file) => prepare_output(parent_of(&file)),
+    }
+}
+
+/// Makes a directory and tries it, so that a run of an hour does not end at a wall.
+///
+/// # Errors
+/// The directory cannot be made or written to.
+pub fn prepare_output(out: &Path) -> Result<()> {
+    make_directory(out)?;
+    tempfile::tempfile_in(out)
+        .and_then(|mut file| file.write_all(b"manylight").and_then(|()| file.sync_all()))
+        .map_err(|error| cannot_write(out, &error))
+}
+
+/// Writes what cannot be written beside and renamed.
+fn write_pipe(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+    let mut writer = BufWriter::new(File::options().write(true).open(path)?);
+    write(&mut writer)?;
+    writer.flush()
 }
 
 fn replace_file(
@@ -43,7 +80,7 @@ fn fill(file: File, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) 
 /// Makes a directory and its parents.
 pub(super) fn make_directory(path: &Path) -> Result<()> {
     fs::create_dir_all(path)
-        .map_err(|error| Error::file(path, format!("the directory cannot be made: {}", plain(&error))))
+        .map_err(|error| Error::file(path, format!("the directory cannot be made: {}", cause(&error))))
 }
 
 /// A directory that is filled beside its final place and put there when whole.
@@ -59,6 +96,7 @@ impl StagedDirectory {
     /// Stages `target`; its parents are made. `marker` is a file by which an older result is known: a directory
     /// at `target` that is neither empty nor holds it is somebody else's, and is refused.
     pub fn create(target: &Path, marker: &str) -> Result<Self> {
+        let target = &followed(target)?;
         let parent = parent_of(target);
         make_directory(parent)?;
         if let Ok(entries) = fs::read_dir(target) {
@@ -83,6 +121,19 @@ impl StagedDirectory {
     /// Where to write until [`Self::commit`].
     pub fn path(&self) -> &Path {
         self.staged.path()
+    }
+
+    /// An error about a file of the staged directory, by the name that the file was to have.
+    pub fn told(&self, error: Error) -> Error {
+        match error {
+            Error::File { path, message } => {
+                let path = path
+                    .strip_prefix(self.path())
+                    .map_or_else(|_| path.clone(), |below| self.target.join(below));
+                Error::File { path, message }
+            }
+            other => other,
+        }
     }
 
     /// Puts the directory in its place; an older one there is deleted only after that.
@@ -171,16 +222,16 @@ fn sync_directory(path: &Path) -> io::Result<()> {
 
 /// An error that says which file cannot be written, and why.
 pub(super) fn cannot_write(path: &Path, error: &io::Error) -> Error {
-    Error::file(path, format!("cannot be written: {}", plain(error)))
+    Error::file(path, format!("cannot be written: {}", cause(error)))
 }
 
 /// The cause without the number the system has for it.
-fn plain(error: &io::Error) -> String {
+pub(crate) fn cause(error: &io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or_default().to_owned()
 }
 
-fn parent_of(path: &Path) -> &Path {
+pub(super) fn parent_of(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
@@ -232,7 +283,22 @@ mod tests {
         let full = File::options().write(true).open("/dev/full").unwrap();
         let error = fill(full, |file| file.write_all(b"x")).unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::StorageFull);
-        assert_eq!(plain(&error), "No space left on device");
+        assert_eq!(cause(&error), "No space left on device");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_run_behind_a_link_is_replaced_where_it_lies() {
+        let dir = tempfile::tempdir().unwrap();
+        let (link, far) = (dir.path().join("run"), dir.path().join("far"));
+        fs::create_dir(&far).unwrap();
+        fs::write(far.join("run.json"), "old").unwrap();
+        std::os::unix::fs::symlink("far", &link).unwrap();
+        let staged = StagedDirectory::create(&link, "run.json").unwrap();
+        fs::write(staged.path().join("run.json"), "new").unwrap();
+        staged.commit().unwrap();
+        assert_eq!(fs::read_to_string(far.join("run.json")).unwrap(), "new");
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
     }
 
     #[test]

@@ -4,13 +4,15 @@
 //!
 //! | channel | type | meaning |
 //! | --- | --- | --- |
-//! | R G B A | half | linear HDR colour and coverage |
+//! | R G B A | half | linear HDR colour; coverage: 0 where nothing was hit, the part of the samples at edges with MSAA |
 //! | Z | float | distance along the view's -Z, metres; infinity where nothing was hit |
 //! | light_count | uint | length of the light list of the pixel's cluster |
 //! | fragment_count | uint | fragments in the pixel's cluster |
 //! | cluster_index | uint | linear cluster index; 4294967295 where nothing was hit |
 //!
-//! and the standard attributes `worldToCamera` and `worldToNDC`. As OpenEXR has it, points are row vectors that
+//! and the standard attributes `worldToCamera`, `worldToNDC`, `screenWindowCenter`, `screenWindowWidth` and
+//! `pixelAspectRatio`. The screen window is where a view's frustum meets the plane at distance 1 (OpenEXR, *Technical
+//! Introduction*), in camera space. A file has one `pixelAspectRatio`: the first view's. As OpenEXR has it, points are row vectors that
 //! are multiplied with the matrix from the left, the translation is in the last row, camera space is left-handed (+X
 //! right, +Y up, the camera looks along +Z), and NDC is (0, 0) in the upper left and (1, 1) in the lower right corner
 //! of the image. NDC z is the device depth.
@@ -21,7 +23,7 @@ use crate::{Error, Result};
 use exr::error::Error as ExrError;
 use exr::prelude::{
     AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds,
-    Layer, LayerAttributes, LineOrder, Text, WritableImage,
+    Layer, LayerAttributes, LineOrder, Text, Vec2, WritableImage,
 };
 use glam::{DMat4, DVec3};
 use std::io;
@@ -46,7 +48,9 @@ pub fn write_exr(path: &Path, views: &[ViewPixels]) -> Result<()> {
     let bounds = IntegerBounds::from_dimensions((first.width as usize, first.height as usize));
     let stereo = views.len() > 1;
     let layers: Vec<_> = views.iter().map(|view| layer(view, stereo)).collect();
-    let image = Image::from_layers(ImageAttributes::new(bounds), layers);
+    let mut attributes = ImageAttributes::new(bounds);
+    attributes.pixel_aspect = pixel_aspect(first);
+    let image = Image::from_layers(attributes, layers);
     write_whole(path, |file| {
         image.write().non_parallel().to_buffered(file).map_err(|error| match error {
             ExrError::Io(error) => error,
@@ -87,6 +91,9 @@ fn layer(view: &ViewPixels, stereo: bool) -> Layer<AnyChannels<FlatSamples>> {
     let mut attributes = LayerAttributes::named(view.name.as_str());
     attributes.view_name = stereo.then(|| Text::from(view.name.as_str()));
     attributes.software_name = Some(Text::from(concat!("manylight ", env!("CARGO_PKG_VERSION"))));
+    let (center, width) = screen_window(view);
+    attributes.screen_window_center = Vec2(center[0] as f32, center[1] as f32);
+    attributes.screen_window_width = width as f32;
     attributes.world_to_camera = Some(row_vector_matrix(camera_from_view() * view_from_world));
     attributes.world_to_normalized_device =
         Some(row_vector_matrix(ndc_from_clip() * view.clip_from_view * view_from_world));
@@ -98,6 +105,23 @@ fn layer(view: &ViewPixels, stereo: bool) -> Layer<AnyChannels<FlatSamples>> {
             channels.into_iter().map(|(name, samples)| AnyChannel::new(name, samples)).collect(),
         ),
     )
+}
+
+/// Centre and width of a view's screen window. Views that are no perspective have the neutral one, as the standard
+/// asks.
+fn screen_window(view: &ViewPixels) -> ([f64; 2], f64) {
+    let clip = view.clip_from_view;
+    if clip.z_axis.w != -1.0 {
+        return ([0.0; 2], 1.0);
+    }
+    ([clip.z_axis.x / clip.x_axis.x, clip.z_axis.y / clip.y_axis.y], 2.0 / clip.x_axis.x)
+}
+
+/// Width over height of a pixel, so that the image has the shape of what was seen.
+fn pixel_aspect(view: &ViewPixels) -> f32 {
+    let clip = view.clip_from_view;
+    let [width, height] = [view.width, view.height].map(f64::from);
+    ((clip.y_axis.y * height) / (clip.x_axis.x * width)) as f32
 }
 
 /// View space (the camera looks along -Z) to OpenEXR's left-handed camera space.
@@ -182,6 +206,26 @@ mod tests {
         let out: Vec<f32> =
             (0..4).map(|column| (0..4).map(|row| point[row] * ndc[row * 4 + column]).sum()).collect();
         assert!((out[0] / out[3] - 0.75).abs() < 1e-6 && (out[1] / out[3]).abs() < 1e-6, "{out:?}");
+    }
+
+    #[test]
+    fn the_header_has_the_shape_of_what_was_seen() {
+        use crate::geometry::Frustum;
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("pair.exr");
+        let eye = |name: &str, x0: f64, x1: f64| {
+            let frustum = Frustum { x0, x1, y0: -1.0, y1: 3.0, z0: -100.0, z1: -0.1 };
+            ViewPixels { clip_from_view: frustum.clip_from_view(), ..view(name, 16, 8) }
+        };
+        write_exr(&path, &[eye("left", -1.5, 0.5), eye("right", -0.25, 2.25)]).unwrap();
+        let image = read_back(&path);
+        // Two by four, in sixteen by eight pixels.
+        assert_eq!(image.attributes.pixel_aspect, 0.25);
+        let windows = image.layer_data.iter().map(|layer| {
+            let Vec2(x, y) = layer.attributes.screen_window_center;
+            [x, y, layer.attributes.screen_window_width]
+        });
+        assert_eq!(windows.collect::<Vec<_>>(), [[-0.5, 1.0, 2.0], [1.0, 1.0, 2.5]]);
     }
 
     #[test]

@@ -36,6 +36,11 @@ pub struct Manifest {
     pub scene: Source,
     /// The recording replayed.
     pub recording: Source,
+    /// The file of static lights, where they come from one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lights_file: Option<Source>,
+    /// Rows of `frames.csv`.
+    pub frame_count: usize,
     /// The device that rendered.
     pub device: DeviceInfo,
     /// Buffer capacities at the end of the run.

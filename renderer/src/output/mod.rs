@@ -6,7 +6,7 @@
 //! ```text
 //! OUT/
 //!   summary.csv            one row a method and lighting (and scene, where there are several)
-//!   <run>/                 named by method (and lighting, where there are several)
+//!   <run>/                 named by method, and by lighting, way and test where the sweep has several
 //!     run.json             how the run came to be
 //!     frames.csv  clusterings.csv  histograms.csv  timings.csv  trace.json
 //!     frames/NNNNNN.exr  NNNNNN.png  NNNNNN_lights.png  NNNNNN_clusters.png  NNNNNN_birdseye.png
@@ -16,6 +16,7 @@
 //! Of several scenes each has a directory `OUT/<scene>[-<recording>]/` in which its runs lie.
 
 mod atomic;
+mod check;
 mod color;
 mod image_exr;
 mod manifest;
@@ -23,8 +24,10 @@ mod preview;
 mod run;
 mod saved;
 mod stages;
+mod strict;
 mod summary;
 mod tables;
+mod target;
 mod trace;
 
 #[cfg(test)]
@@ -32,16 +35,20 @@ mod testing;
 #[cfg(test)]
 mod tests;
 
-pub use atomic::{remove_abandoned, write_whole};
+pub(crate) use atomic::cause;
+pub use atomic::{prepare_file, prepare_output, remove_abandoned, write_whole};
+pub use check::check_run;
 pub use color::{cluster_color, cubehelix, tone_map};
 pub(crate) use color::{srgb_decode, srgb_encode};
 pub use image_exr::write_exr;
 pub use manifest::{DeviceInfo, Manifest, RUN_FORMAT, Source, git_revision, rfc3339_utc};
 pub use preview::write_png;
 pub use preview::{cluster_preview, image_preview, light_preview, write_previews};
-pub use run::{PlannedRun, RunWriter, planned_runs, prepare_output, write_summary};
-pub use saved::{find_runs, is_complete, saved_fingerprint, saved_means};
+pub use run::{PlannedRun, RunWriter, planned_runs, write_summary};
+pub use saved::{Age, Older, age, find_runs, is_complete, newest_of_each, saved_fingerprint, saved_means};
 pub(crate) use stages::kind as stage_kind;
 pub use stages::{GpuTimes, StageMinima};
+pub(crate) use strict::each_row;
 pub use summary::{MethodRun, Ratios, RunMeans, Summary, SummaryRow, Values};
 pub(crate) use summary::{TABLE_LINES, grouped};
+pub(crate) use tables::{CLUSTERINGS, FRAMES, HISTOGRAMS, TIMINGS};

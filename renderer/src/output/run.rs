@@ -1,6 +1,6 @@
 //! Run directories: which runs a configuration asks for, what they are called, how they are written.
 
-use super::atomic::{StagedDirectory, cannot_write, make_directory, write_whole};
+use super::atomic::{StagedDirectory, write_whole};
 use super::image_exr::write_exr;
 use super::manifest::Manifest;
 use super::preview::{write_png, write_previews};
@@ -13,7 +13,8 @@ use crate::measure::{FrameCounts, FrameTimes, FrameTrace, ViewPixels};
 use crate::methods::MethodSpec;
 use crate::{Error, Result};
 use image::RgbImage;
-use std::io::Write;
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 /// By this file a run directory is known.
@@ -88,17 +89,6 @@ fn lighting_name(lights: &LightsFrom, all: &[LightsFrom]) -> String {
     }
 }
 
-/// Makes the output directory and tries it, so that a run of an hour does not end at a wall.
-///
-/// # Errors
-/// The directory cannot be made or written to.
-pub fn prepare_output(out: &Path) -> Result<()> {
-    make_directory(out)?;
-    tempfile::tempfile_in(out)
-        .and_then(|mut file| file.write_all(b"manylight").and_then(|()| file.sync_all()))
-        .map_err(|error| cannot_write(out, &error))
-}
-
 /// Writes `OUT/summary.csv`.
 ///
 /// # Errors
@@ -130,8 +120,9 @@ impl RunWriter {
     /// A file cannot be written.
     pub fn write_images(&self, frame: u32, views: &[ViewPixels], most_lights: Option<u32>) -> Result<()> {
         let (directory, stem) = (self.staged.path().join("frames"), format!("{frame:06}"));
-        write_exr(&directory.join(format!("{stem}.exr")), views)?;
-        write_previews(&directory, &stem, views, most_lights)
+        write_exr(&directory.join(format!("{stem}.exr")), views)
+            .and_then(|()| write_previews(&directory, &stem, views, most_lights))
+            .map_err(|error| self.staged.told(error))
     }
 
     /// Writes a frame's `frames/NNNNNN_birdseye.png`.
@@ -140,6 +131,7 @@ impl RunWriter {
     /// The file cannot be written.
     pub fn write_birdseye(&self, frame: u32, image: &RgbImage) -> Result<()> {
         write_png(&self.staged.path().join("frames").join(format!("{frame:06}_birdseye.png")), image)
+            .map_err(|error| self.staged.told(error))
     }
 
     /// Writes `trace.json`.
@@ -147,7 +139,7 @@ impl RunWriter {
     /// # Errors
     /// The file cannot be written.
     pub fn write_trace(&self, frames: &[FrameTrace]) -> Result<()> {
-        write_whole(&self.staged.path().join("trace.json"), |file| trace::write_trace(file, frames))
+        self.write("trace.json", |file| trace::write_trace(file, frames))
     }
 
     /// Writes the tables and the manifest, and puts the directory in its place, over an older run's.
@@ -155,15 +147,18 @@ impl RunWriter {
     /// # Errors
     /// A file cannot be written; nothing is left of the new directory then.
     pub fn finish(self, manifest: &Manifest, counts: &[FrameCounts], times: &[FrameTimes]) -> Result<()> {
-        let at = |name: &str| self.staged.path().join(name);
         let minima = StageMinima::from_times(times);
-        write_whole(&at("frames.csv"), |file| tables::write_frames(file, counts, &minima))?;
-        write_whole(&at("timings.csv"), |file| tables::write_timings(file, times))?;
-        write_whole(&at("clusterings.csv"), |file| tables::write_clusterings(file, counts))?;
-        write_whole(&at("histograms.csv"), |file| tables::write_histograms(file, counts))?;
+        self.write("frames.csv", |file| tables::write_frames(file, counts, &minima))?;
+        self.write("timings.csv", |file| tables::write_timings(file, times))?;
+        self.write("clusterings.csv", |file| tables::write_clusterings(file, counts))?;
+        self.write("histograms.csv", |file| tables::write_histograms(file, counts))?;
         let manifest = serde_json::to_string_pretty(manifest)
             .map_err(|error| Error::Internal(format!("the manifest is not JSON: {error}")))?;
-        write_whole(&at(MANIFEST), |file| writeln!(file, "{manifest}"))?;
+        self.write(MANIFEST, |file| writeln!(file, "{manifest}"))?;
         self.staged.commit()
+    }
+
+    fn write(&self, name: &str, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<()> {
+        write_whole(&self.staged.path().join(name), write).map_err(|error| self.staged.told(error))
     }
 }

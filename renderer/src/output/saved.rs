@@ -1,27 +1,21 @@
 //! Runs that are on disk: whether they are whole, what made them, their means.
 
+use super::check::check_run;
 use super::run::MANIFEST;
-use super::summary::Values;
+use super::strict::each_row;
+use super::summary::{Values, mean};
+use super::tables::FRAMES;
 use crate::{Error, Result};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
+use std::time::SystemTime;
+use std::{fmt, fs, io};
 
 /// What is asked of a run on disk.
 #[derive(Deserialize)]
 struct SavedManifest {
     fingerprint: String,
-}
-
-/// The columns of `frames.csv` that the closing table takes.
-#[derive(Deserialize)]
-struct FrameRow {
-    visible_clusters: f64,
-    light_indices: f64,
-    lighting_computations: f64,
-    gpu_ms_cluster: Option<f64>,
-    gpu_ms_shade: Option<f64>,
-    gpu_ms_frame: Option<f64>,
 }
 
 /// The directories of all runs in or below `directory`, by name. Hidden ones are unfinished, and what stands in a
@@ -56,7 +50,8 @@ fn search(directory: &Path, found: &mut Vec<PathBuf>) -> Result<()> {
     };
     let entries = fs::read_dir(directory).map_err(cannot)?.collect::<io::Result<Vec<_>>>().map_err(cannot)?;
     let is_inner = |entry: &fs::DirEntry| {
-        entry.file_type().is_ok_and(|kind| kind.is_dir())
+        // A link is followed to a run and no further: links may lead in circles.
+        entry.file_type().is_ok_and(|kind| kind.is_dir() || (kind.is_symlink() && is_complete(&entry.path())))
             && !entry.file_name().to_string_lossy().starts_with('.')
     };
     let mut inner: Vec<PathBuf> =
@@ -70,6 +65,43 @@ pub fn is_complete(directory: &Path) -> bool {
     directory.join(MANIFEST).is_file()
 }
 
+/// When the run in `directory` was begun (`started`, as its manifest has it), and when it was put there: of runs that
+/// were asked to do the same, the greatest is the newest.
+pub type Age = (String, Option<SystemTime>);
+
+/// The age of the run in `directory`.
+pub fn age(directory: &Path, started: &str) -> Age {
+    let put = fs::metadata(directory.join(MANIFEST)).and_then(|manifest| manifest.modified());
+    (started.to_owned(), put.ok())
+}
+
+/// A run that is passed over: there is a newer one that was asked to do the same.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Older {
+    /// Its directory.
+    pub run: String,
+    /// The newer one's.
+    pub newer: String,
+}
+
+impl fmt::Display for Older {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} is left out: {} is the same run, made later", self.run, self.newer)
+    }
+}
+
+/// For each of some runs the index of the newest that was asked to do the same, as their keys tell.
+pub fn newest_of_each<K: Ord>(runs: &[(K, Age)]) -> Vec<usize> {
+    let mut newest: BTreeMap<&K, usize> = BTreeMap::new();
+    for (index, (key, age)) in runs.iter().enumerate() {
+        let best = newest.entry(key).or_insert(index);
+        if *age > runs[*best].1 {
+            *best = index;
+        }
+    }
+    runs.iter().map(|(key, _)| newest[key]).collect()
+}
+
 /// The fingerprint of the run in `directory`; `None` where there is none, or one by another version of the format.
 pub fn saved_fingerprint(directory: &Path) -> Option<String> {
     let text = fs::read_to_string(directory.join(MANIFEST)).ok()?;
@@ -79,22 +111,57 @@ pub fn saved_fingerprint(directory: &Path) -> Option<String> {
 /// How many frames the run in `directory` has, and its means over them.
 ///
 /// # Errors
-/// Its `frames.csv` is missing or broken.
+/// The run is not whole: see [`check_run`].
 pub fn saved_means(directory: &Path) -> Result<(usize, Values)> {
-    let path = directory.join("frames.csv");
-    let broken = |error: csv::Error| {
-        Error::file(&path, format!("is no table of frames ({error}): render the run again with --force"))
-    };
-    let mut reader = csv::Reader::from_path(&path).map_err(broken)?;
-    let rows = reader.deserialize().collect::<std::result::Result<Vec<FrameRow>, _>>().map_err(broken)?;
-    let mean = |get: fn(&FrameRow) -> Option<f64>| super::summary::mean(rows.iter().map(get));
+    check_run(directory)?;
+    let (mut counts, mut times): (Vec<[f64; 3]>, Vec<[Option<f64>; 3]>) = Default::default();
+    each_row(&directory.join("frames.csv"), &FRAMES, |row| {
+        let count = |column| row.whole::<u64>(column).map(|count| count as f64);
+        counts.push([count("visible_clusters")?, count("light_indices")?, count("lighting_computations")?]);
+        let time = |column| row.optional(column);
+        times.push([time("gpu_ms_cluster")?, time("gpu_ms_shade")?, time("gpu_ms_frame")?]);
+        Ok(())
+    })?;
+    let count = |place: usize| mean(counts.iter().map(|row| Some(row[place]))).unwrap_or(0.0);
+    let time = |place: usize| mean(times.iter().map(|row| row[place]));
     let values = Values {
-        visible_clusters: mean(|row| Some(row.visible_clusters)).unwrap_or(0.0),
-        light_indices: mean(|row| Some(row.light_indices)).unwrap_or(0.0),
-        lighting_computations: mean(|row| Some(row.lighting_computations)).unwrap_or(0.0),
-        clustering_ms: mean(|row| row.gpu_ms_cluster),
-        shading_ms: mean(|row| row.gpu_ms_shade),
-        total_ms: mean(|row| row.gpu_ms_frame),
+        visible_clusters: count(0),
+        light_indices: count(1),
+        lighting_computations: count(2),
+        clustering_ms: time(0),
+        shading_ms: time(1),
+        total_ms: time(2),
     };
-    Ok((rows.len(), values))
+    Ok((counts.len(), values))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn runs_are_found_behind_links_and_circles_are_not_followed() {
+        let dir = tempfile::tempdir().unwrap();
+        let [far, out] = ["far", "out"].map(|name| dir.path().join(name));
+        fs::create_dir_all(far.join("run")).unwrap();
+        fs::create_dir(&out).unwrap();
+        fs::write(far.join("run").join(MANIFEST), "").unwrap();
+        std::os::unix::fs::symlink(far.join("run"), out.join("linked")).unwrap();
+        std::os::unix::fs::symlink(&out, out.join("circle")).unwrap();
+        assert_eq!(find_runs(&out).unwrap(), [out.join("linked")]);
+    }
+
+    #[test]
+    fn of_equal_keys_the_newest_stands_for_all() {
+        let later = |seconds| Some(SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(seconds));
+        let runs = [
+            ("a", ("2026-01-01T00:00:00Z".to_owned(), later(9))),
+            ("b", ("2026-01-01T00:00:00Z".to_owned(), later(1))),
+            ("a", ("2026-01-02T00:00:00Z".to_owned(), later(1))),
+            ("b", ("2026-01-01T00:00:00Z".to_owned(), later(2))),
+            ("a", ("2026-01-01T12:00:00Z".to_owned(), later(5))),
+        ];
+        assert_eq!(newest_of_each(&runs), [2, 3, 2, 3, 2]);
+    }
 }

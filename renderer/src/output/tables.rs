@@ -5,7 +5,8 @@ use crate::measure::{ClusteringCounts, FrameCounts, FrameTimes};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-const FRAMES: [&str; 20] = [
+/// Columns of `frames.csv`.
+pub(crate) const FRAMES: [&str; 20] = [
     "frame",
     "time_s",
     "views",
@@ -28,9 +29,11 @@ const FRAMES: [&str; 20] = [
     "gpu_ms_shade",
 ];
 
-const TIMINGS: [&str; 5] = ["run", "frame", "stage", "gpu_ms", "cpu_ms"];
+/// Columns of `timings.csv`.
+pub(crate) const TIMINGS: [&str; 5] = ["run", "frame", "stage", "gpu_ms", "cpu_ms"];
 
-const CLUSTERINGS: [&str; 9] = [
+/// Columns of `clusterings.csv`.
+pub(crate) const CLUSTERINGS: [&str; 9] = [
     "frame",
     "clustering",
     "dx",
@@ -42,7 +45,8 @@ const CLUSTERINGS: [&str; 9] = [
     "lists_hash",
 ];
 
-const HISTOGRAMS: [&str; 6] = ["frame", "clustering", "kind", "bin", "clusters", "fragments"];
+/// Columns of `histograms.csv`.
+pub(crate) const HISTOGRAMS: [&str; 6] = ["frame", "clustering", "kind", "bin", "clusters", "fragments"];
 
 /// `frames.csv`: the counters of each frame with the minimum over runs of its GPU times.
 pub(super) fn write_frames(out: impl Write, counts: &[FrameCounts], minima: &StageMinima) -> io::Result<()> {
@@ -115,6 +119,9 @@ pub(super) fn write_clusterings(out: impl Write, counts: &[FrameCounts]) -> io::
 /// How many clusters and fragments fall into each bin that occurs, ascending.
 type Histogram = BTreeMap<u32, (u64, u64)>;
 
+/// The kinds of `histograms.csv`, in their order.
+pub(super) const KINDS: [&str; 3] = ["lights_per_cluster", "fragments_per_cluster", "lights_per_fragment"];
+
 /// `histograms.csv`: exact bins. Of kind `lights_per_cluster`, `fragments` counts those in the clusters of the bin;
 /// of kind `lights_per_fragment`, shaded fragments, and `clusters` those whose lists have that length.
 pub(super) fn write_histograms(out: impl Write, counts: &[FrameCounts]) -> io::Result<()> {
@@ -152,11 +159,8 @@ fn histograms(
     let clusters_with = |lights: u32| by_lights.get(&lights).map_or(0, |(clusters, _)| *clusters);
     let per_fragment =
         shaded.iter().map(|&(lights, fragments)| (lights, (clusters_with(lights), fragments))).collect();
-    [
-        ("lights_per_cluster", by_lights),
-        ("fragments_per_cluster", by_fragments),
-        ("lights_per_fragment", per_fragment),
-    ]
+    let [lights, fragments, shaded] = KINDS;
+    [(lights, by_lights), (fragments, by_fragments), (shaded, per_fragment)]
 }
 
 /// Milliseconds to the nanosecond.

@@ -1,7 +1,40 @@
 //! Records with recognisable values, for the tests of this module.
 
-use crate::measure::{ClusterRecord, ClusteringCounts, FrameCounts, FrameTimes, StageTime, ViewPixels};
+use super::{DeviceInfo, Manifest, RUN_FORMAT, Source, git_revision};
+use crate::config::{Config, Lighting};
+use crate::measure::{
+    Capacities, ClusterRecord, ClusteringCounts, FrameCounts, FrameTimes, GrowthEvent, StageTime, ViewPixels,
+};
 use half::f16;
+
+/// A manifest of a run of one frame.
+pub(super) fn manifest() -> Manifest {
+    Manifest {
+        format: RUN_FORMAT,
+        version: env!("CARGO_PKG_VERSION"),
+        git_revision: git_revision(),
+        fingerprint: "0f".into(),
+        method: "encl-ortho-4".into(),
+        lighting: Some(Lighting::with_count(1000)),
+        config: Config::default(),
+        assigned_by: "brute".into(),
+        scene: Source { name: "street".into(), sha256: "00".into() },
+        recording: Source { name: "bistro-vive".into(), sha256: "11".into() },
+        lights_file: None,
+        frame_count: 1,
+        device: DeviceInfo { name: "llvmpipe".into(), driver: "Mesa".into(), api: "1.3.230".into() },
+        capacities: Capacities { visible_clusters: 1, light_indices: 2 },
+        growth: vec![GrowthEvent {
+            frame: 40,
+            clustering: 0,
+            buffer: "light_indices".into(),
+            from: 1,
+            to: 2,
+        }],
+        started: "2026-11-05T09:03:07Z".into(),
+        duration_s: 1.5,
+    }
+}
 
 /// A view whose every pixel differs; the first pixel was hit by nothing.
 pub(super) fn view(name: &str, width: u32, height: u32) -> ViewPixels {

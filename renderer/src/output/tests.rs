@@ -1,7 +1,6 @@
-use super::testing::{counts, times, view};
+use super::testing::{counts, manifest, times, view};
 use super::*;
 use crate::config::{Assign, Config, Lighting};
-use crate::measure::{Capacities, GrowthEvent};
 use crate::measure::{FrameCounts, FrameTimes};
 use std::collections::BTreeMap;
 use std::fs;
@@ -209,32 +208,6 @@ fn runs_are_named_by_method_and_by_lighting_where_needed() {
     assert_eq!(planned_runs(&config)[0].lighting, "scene");
 }
 
-fn manifest() -> Manifest {
-    Manifest {
-        format: RUN_FORMAT,
-        version: env!("CARGO_PKG_VERSION"),
-        git_revision: git_revision(),
-        fingerprint: "0f".into(),
-        method: "encl-ortho-4".into(),
-        lighting: Some(Lighting::with_count(1000)),
-        config: Config::default(),
-        assigned_by: "brute".into(),
-        scene: Source { name: "street".into(), sha256: "00".into() },
-        recording: Source { name: "bistro-vive".into(), sha256: "11".into() },
-        device: DeviceInfo { name: "llvmpipe".into(), driver: "Mesa".into(), api: "1.3.230".into() },
-        capacities: Capacities { visible_clusters: 1, light_indices: 2 },
-        growth: vec![GrowthEvent {
-            frame: 40,
-            clustering: 0,
-            buffer: "light_indices".into(),
-            from: 1,
-            to: 2,
-        }],
-        started: "2026-11-05T09:03:07Z".into(),
-        duration_s: 1.5,
-    }
-}
-
 /// All files under a directory with their bytes.
 fn contents(directory: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut files = BTreeMap::new();
@@ -299,6 +272,19 @@ fn an_unfinished_run_leaves_the_earlier_one() {
     writer.write_images(0, &[view("mono", 2, 2)], None).unwrap();
     drop(writer);
     assert_eq!(contents(dir.path()), before);
+}
+
+#[test]
+fn a_file_that_cannot_be_written_is_named_by_where_it_was_to_be() {
+    let dir = tempfile::tempdir().unwrap();
+    let writer = RunWriter::create(dir.path(), "run").unwrap();
+    let pixels = [view("mono", 2, 2)];
+    writer.write_images(0, &pixels, None).unwrap();
+    let staged = fs::read_dir(dir.path()).unwrap().next().unwrap().unwrap().path();
+    fs::remove_dir_all(staged.join("frames")).unwrap();
+    fs::write(staged.join("frames"), "in the way").unwrap();
+    let error = writer.write_images(0, &pixels, None).unwrap_err().to_string();
+    assert!(error.starts_with(&format!("{}: ", dir.path().join("run/frames").display())), "{error}");
 }
 
 #[test]

@@ -8,8 +8,8 @@ use crate::frame::{Eyes, Frame};
 use crate::pass::{Access, Recorder, Use};
 use ash::vk;
 
-/// What is seen where nothing was drawn: a dim night sky, linear.
-pub const BACKGROUND: [f32; 4] = [0.004, 0.006, 0.012, 1.0];
+/// What is seen where nothing was drawn: a dim night sky, linear, that covers nothing.
+pub const BACKGROUND: [f32; 4] = [0.004, 0.006, 0.012, 0.0];
 
 /// Shades some views.
 pub fn record(r: &mut Recorder, frame: &Frame, eyes: Eyes) {

@@ -7,7 +7,7 @@
 //!   "format": "manylight.waypoints/1",
 //!   "fov": 1.5, "near": 0.4, "far": 100, "dt_s": 0.011111111111111112,
 //!   "hmd": {"may be": "left out; as in a recording"},
-//!   "rain": {"may be": "left out; as in a recording, else the rain of Gelderen's chapter 6"},
+//!   "rain": {"may be": "left out; as in a recording, else it rains in the box of the scene that is flown"},
 //!   "waypoints": [
 //!     {"position": [0, 2, 0], "target": [0, 2, -5], "time_s": 0},
 //!     {"position": [4, 2, 0], "target": [0, 2, -5], "time_s": 2.5}
@@ -55,8 +55,7 @@ struct WaypointFile {
     far: f64,
     dt_s: f64,
     hmd: Option<Hmd>,
-    #[serde(default)]
-    rain: RainParameters,
+    rain: Option<RainParameters>,
     waypoints: Vec<Waypoint>,
 }
 
@@ -72,7 +71,7 @@ impl Check for WaypointFile {
     fn check(&self) -> Result<(), Problem> {
         check_fov(self.fov).map_err(|problem| problem.under("fov"))?;
         check_clock_and_depths(self.dt_s, self.near, self.far)?;
-        self.rain.check().map_err(|problem| problem.under("rain"))?;
+        self.rain.map_or(Ok(()), |rain| rain.check()).map_err(|problem| problem.under("rain"))?;
         for (index, waypoint) in self.waypoints.iter().enumerate() {
             waypoint.check().map_err(|problem| problem.under(index).under("waypoints"))?;
         }

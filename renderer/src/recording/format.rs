@@ -34,8 +34,9 @@ pub struct RecordingFile {
     pub near: f64,
     /// Distance of the far plane, metres.
     pub far: f64,
-    /// The falling lights.
-    pub rain: RainParameters,
+    /// The falling lights; without them it rains in the scene's own box.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rain: Option<RainParameters>,
     /// The head-mounted display; without one, there is one view with the frames' field of view.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hmd: Option<Hmd>,
@@ -185,7 +186,7 @@ impl Check for RecordingFile {
     fn check(&self) -> Result<(), Problem> {
         self.source.check().map_err(|problem| problem.under("source"))?;
         check_clock_and_depths(self.dt_s, self.near, self.far)?;
-        self.rain.check().map_err(|problem| problem.under("rain"))?;
+        self.rain.map_or(Ok(()), |rain| rain.check()).map_err(|problem| problem.under("rain"))?;
         if self.frames.is_empty() {
             return Err(Problem::new("a recording needs at least one frame").under("frames"));
         }

@@ -46,7 +46,7 @@ fn import(path: &Path, bytes: &[u8], options: &ImportOptions) -> Result<Recordin
         // Rounded, as single-precision decimals such as 0.4 are meant.
         near: round_to(f64::from(-camera.z_near), 1e6),
         far: round_to(f64::from(-camera.z_far), 1e6),
-        rain: RainParameters::default(),
+        rain: Some(RainParameters::default()),
         hmd: options.hmd.clone(),
         frames,
     };

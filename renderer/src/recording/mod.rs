@@ -27,6 +27,8 @@
 //! }
 //! ```
 //!
+//! Without `rain`, it rains in the box around the scene that is flown.
+//!
 //! A row of `frames` is the head of one frame, `[x, y, z, qx, qy, qz, qw, fov]`: position, world-from-head unit
 //! quaternion, field of view along the longer axis of the image. A row of an eye is
 //! `[x, y, z, qx, qy, qz, qw, x0, x1, y0, y1]`: head-from-eye position and unit quaternion, and the frustum's
@@ -168,9 +170,9 @@ impl Recording {
         f64::from(frame) * self.file.dt_s
     }
 
-    /// The falling lights; they step by the recording's `dt_s` a frame.
-    pub fn rain(&self) -> &RainParameters {
-        &self.file.rain
+    /// The falling lights; they step by the recording's `dt_s` a frame. `None` where it rains in the scene's own box.
+    pub fn rain(&self) -> Option<&RainParameters> {
+        self.file.rain.as_ref()
     }
 
     /// One name a view, in the order of [`Recording::views`].

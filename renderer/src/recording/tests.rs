@@ -170,7 +170,7 @@ proptest! {
             dt_s,
             near: 0.1,
             far: 1.0 / 3.0,
-            rain: RainParameters { seed, damping, ..RainParameters::default() },
+            rain: Some(RainParameters { seed, damping, ..RainParameters::default() }),
             hmd: Some(hmd),
             frames,
         };

@@ -1,6 +1,7 @@
 //! Writing recordings: one field a line, one row of a table a line.
 
 use super::{Recording, RecordingFile};
+use crate::output::write_whole;
 use crate::{Error, Result};
 use serde::Serialize;
 use serde_json::ser::{Formatter, Serializer};
@@ -11,32 +12,14 @@ use std::path::Path;
 const BROKEN_DEPTH: usize = 2;
 
 impl Recording {
-    /// Writes the recording to `path`, whole or not at all: through a temporary file beside it and a rename.
+    /// Writes the recording to `path`, whole or not at all: see [`write_whole`].
     ///
     /// # Errors
-    /// [`Error::File`] where the directory cannot be written.
+    /// [`Error::File`] where it cannot be written.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
-        let path = path.as_ref();
         let text = to_json(self.file())?;
-        write_whole(path, text.as_bytes()).map_err(|error| Error::file(path, error))
+        write_whole(path.as_ref(), |file| file.write_all(text.as_bytes()))
     }
-}
-
-fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty());
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".manylight-");
-    #[cfg(unix)]
-    {
-        // Readable as any other new file would be; the default is the owner alone.
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    let mut file = builder.tempfile_in(directory.unwrap_or(Path::new(".")))?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    file.persist(path).map_err(|error| error.error)?;
-    Ok(())
 }
 
 /// The text of the file, with a line break at its end.

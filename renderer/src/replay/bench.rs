@@ -91,6 +91,7 @@ pub fn bench_assign(
 ) -> Result<()> {
     let views = inputs.recording.view_names().len();
     let mut session = Session::new(config, &inputs.scene, views)?;
+    session.context.require_timestamps()?;
     for lighting in &bench.lights {
         let mut source = inputs.light_source(&LightsFrom::Rain(*lighting))?;
         for &frame in &bench.frames {

@@ -1,8 +1,8 @@
 //! What a replay reads: scene, recording, lights.
 
 use crate::config::{self, Config, Lighting};
-use crate::lights::{self, LightSource, PointLight};
-use crate::rain::Rain;
+use crate::lights::{self, LightSource, LightsFile, PointLight};
+use crate::rain::{Rain, RainParameters};
 use crate::recording::{self, Recording};
 use crate::scene::{self, Scene, procedural};
 use crate::{Error, Result};
@@ -14,6 +14,8 @@ pub struct Inputs {
     pub scene: Scene,
     /// Cameras and rain.
     pub recording: Recording,
+    /// Hexadecimal SHA-256 of the file of static lights, where they come from one.
+    pub lights_sha256: Option<String>,
     /// Lights that do not move; `None` for rain.
     static_lights: Option<Vec<PointLight>>,
 }
@@ -34,12 +36,12 @@ impl Inputs {
     pub fn load_with(config: &Config, recording: Recording, scene: Option<Scene>) -> Result<Self> {
         let static_file = config.lights_file.as_deref().map(lights::load_csv).transpose()?;
         let scene = scene.map_or_else(|| load_scene(&config.scene), Ok)?;
-        let static_lights = match static_file {
-            Some(lights) => Some(lights),
-            None if config.scene_lights => Some(scene_lights(&scene)?),
-            None => None,
+        let (static_lights, lights_sha256) = match static_file {
+            Some(LightsFile { lights, sha256 }) => (Some(lights), Some(sha256)),
+            None if config.scene_lights => (Some(scene_lights(&scene)?), None),
+            None => (None, None),
         };
-        Ok(Self { scene, recording, static_lights })
+        Ok(Self { scene, recording, lights_sha256, static_lights })
     }
 
     /// Lights for one run over the frames, at its first frame or before.
@@ -49,16 +51,34 @@ impl Inputs {
     pub fn light_source(&self, lights: &config::LightsFrom) -> Result<LightSource> {
         match (lights, &self.static_lights) {
             (config::LightsFrom::Rain(lighting), _) => {
-                let file = self.recording.file();
-                Ok(LightSource::Rain(Rain::new(&file.rain, lighting, file.dt_s, 0)?))
+                let dt_s = self.recording.file().dt_s;
+                Ok(LightSource::Rain(Rain::new(&self.rain(), lighting, dt_s, 0)?))
             }
             (_, Some(lights)) => Ok(LightSource::Static(lights.clone())),
             (_, None) => Err(Error::Internal("static lights were not loaded".into())),
         }
     }
-}
 
-impl Inputs {
+    /// The rain of the recording; where it brings none, rain in the box around the scene.
+    fn rain(&self) -> RainParameters {
+        self.recording.rain().copied().unwrap_or_else(|| match self.scene.bounds() {
+            Some((low, high)) => RainParameters::within(low.as_vec3().to_array(), high.as_vec3().to_array()),
+            None => RainParameters::default(),
+        })
+    }
+
+    /// Says where it rains, where the recording does not.
+    pub fn rain_note(&self) -> Option<String> {
+        let falls = self.static_lights.is_none() && self.recording.rain().is_none();
+        falls.then(|| {
+            let RainParameters { box_min, box_max, .. } = self.rain();
+            format!(
+                "recording {} brings no rain: it rains in the scene's box, from {box_min:.1?} to {box_max:.1?}",
+                self.recording.name()
+            )
+        })
+    }
+
     /// How many lights there are.
     ///
     /// # Errors

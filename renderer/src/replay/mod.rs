@@ -14,6 +14,7 @@ pub mod inputs;
 mod plan;
 mod player;
 pub(crate) mod session;
+mod shape;
 mod temporal;
 mod tracer;
 
@@ -21,6 +22,7 @@ pub use inputs::Inputs;
 pub use plan::{FramePlan, plan_frames};
 pub use player::{Player, device_info};
 pub use session::shader_library;
+pub use shape::shape_note;
 
 use crate::assign::Assigner;
 use crate::config::Config;
@@ -161,6 +163,11 @@ fn replay_run(
     };
     result.assigner = choose::assigner(config, inputs, session, (run, &plans))?;
     count(config, inputs, session, (run, &plans), (watch, sink), &mut result)?;
+    if inputs.light_count(&run.lights)? > 0
+        && result.counts.iter().all(|frame| frame.needed_computations == 0)
+    {
+        tracing::warn!("{}: no light reaches anything that is seen, in any frame", run.name);
+    }
     if config.runs > 0 {
         time(config, inputs, session, (run, &plans), watch, &mut result)?;
     }

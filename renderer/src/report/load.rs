@@ -3,11 +3,12 @@
 mod manifest;
 mod tables;
 
-use super::results::{Picture, ResultSet, Run, is_tuned};
-use crate::output::find_runs;
+use super::results::{LightingName, Picture, ResultSet, Run, is_tuned};
+use crate::output::{Older, age, check_run, find_runs, newest_of_each};
 use crate::{Error, Result};
 use manifest::RunFile;
 use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -17,8 +18,8 @@ const MANIFEST: &str = "run.json";
 /// Reads every run below `directories`.
 ///
 /// # Errors
-/// A directory is missing or holds no run, a file is missing or was written by something else, runs come from
-/// several versions of the program, or one run is there twice.
+/// A directory is missing or holds no run, a file is missing, damaged or was written by something else, or runs come
+/// from several versions of the program.
 pub fn load(directories: &[PathBuf]) -> Result<ResultSet> {
     let mut found = vec![];
     for directory in directories {
@@ -26,16 +27,55 @@ pub fn load(directories: &[PathBuf]) -> Result<ResultSet> {
         let root = if directories.len() > 1 { directory.parent().unwrap_or(directory) } else { directory };
         found.extend(below.into_iter().map(|path| (name_below(root, &path), path)));
     }
+    each_directory_once(&mut found);
     let files = found.par_iter().map(|(_, path)| manifest::read(&path.join(MANIFEST))).collect::<Vec<_>>();
-    let files = files.into_iter().collect::<Result<Vec<_>>>()?;
+    let mut files = files.into_iter().collect::<Result<Vec<_>>>()?;
+    let older = keep_newest(&mut found, &mut files)?;
     one_version(&found, &files)?;
     let loaded: Vec<Result<Run>> =
         found.par_iter().zip(&files).map(|((name, path), file)| read_run(name, path, file)).collect();
     let mut runs = loaded.into_iter().collect::<Result<Vec<_>>>()?;
+    name_lights_files_once(&mut runs);
     runs.sort_by_cached_key(|run| (run.setting.clone(), run.lighting.clone(), run.method.to_string()));
-    each_once(&runs)?;
     let first = &files[0];
-    Ok(ResultSet { runs, version: first.version.clone(), git_revision: first.git_revision.clone() })
+    Ok(ResultSet { runs, older, version: first.version.clone(), git_revision: first.git_revision.clone() })
+}
+
+/// Directories that are given within each other hold the same runs.
+fn each_directory_once(found: &mut Vec<(String, PathBuf)>) {
+    let mut seen = BTreeSet::new();
+    found.retain(|(_, path)| seen.insert(fs::canonicalize(path).unwrap_or_else(|_| path.clone())));
+}
+
+/// Of runs that were asked to do the same, leaves the newest; says which were older.
+fn keep_newest(found: &mut Vec<(String, PathBuf)>, files: &mut Vec<RunFile>) -> Result<Vec<Older>> {
+    let key = |((_, path), file): (&(String, PathBuf), &RunFile)| {
+        let method = file.method(&path.join(MANIFEST))?;
+        // How many views there are follows from the recording.
+        let key = (file.setting(0, method), file.lights_key(), method.to_string());
+        Ok((key, age(path, &file.started)))
+    };
+    let keys = found.iter().zip(files.iter()).map(key).collect::<Result<Vec<_>>>()?;
+    let newest = newest_of_each(&keys);
+    let name = |index: usize| found[index].0.clone();
+    let pairs = newest.iter().enumerate().filter(|(index, newest)| index != *newest);
+    let older = pairs.map(|(index, &newest)| Older { run: name(index), newer: name(newest) }).collect();
+    let is_newest = |index: usize| newest[index] == index;
+    let mut index = 0..;
+    found.retain(|_| index.next().is_some_and(is_newest));
+    let mut index = 0..;
+    files.retain(|_| index.next().is_some_and(is_newest));
+    Ok(older)
+}
+
+/// One file of lights may lie under several names: it is called by the first.
+fn name_lights_files_once(runs: &mut [Run]) {
+    let mut names: BTreeMap<String, String> = BTreeMap::new();
+    for LightingName { label, sha256, .. } in runs.iter_mut().map(|run| &mut run.lighting) {
+        if let Some(sha256) = sha256 {
+            label.clone_from(names.entry(sha256.clone()).or_insert_with(|| label.clone()));
+        }
+    }
 }
 
 fn name_below(root: &Path, path: &Path) -> String {
@@ -57,20 +97,10 @@ fn one_version(found: &[(String, PathBuf)], files: &[RunFile]) -> Result<()> {
     )))
 }
 
-fn each_once(runs: &[Run]) -> Result<()> {
-    let key = |run: &Run| (run.setting.clone(), run.lighting.clone(), run.method);
-    match runs.windows(2).find(|pair| key(&pair[0]) == key(&pair[1])) {
-        None => Ok(()),
-        Some(pair) => Err(Error::input(format!(
-            "{} and {} are the same run measured twice: give one of them",
-            pair[0].name, pair[1].name
-        ))),
-    }
-}
-
 fn read_run(name: &str, directory: &Path, file: &RunFile) -> Result<Run> {
     let at = |name: &str| directory.join(name);
     let method = file.method(&at(MANIFEST))?;
+    check_run(directory)?;
     let (views, frames) = tables::read_frames(&at("frames.csv"))?;
     let grid = tables::read_grid(&at("clusterings.csv"))?;
     let (mut distributions, mut most_fragments) = Default::default();

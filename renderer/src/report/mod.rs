@@ -35,12 +35,12 @@ mod tests;
 
 pub use claims::{ByWay, Claim, Evidence, Number, Verdict};
 
-use crate::output::write_whole;
+use crate::output::{Older, write_whole};
 use crate::{Error, Result};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use figures::Figure;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::fmt;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -49,9 +49,12 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Report {
     /// The page.
+    #[serde(serialize_with = "as_text")]
     pub page: PathBuf,
     /// Runs read.
     pub runs: usize,
+    /// Runs left out, for there are newer ones that were asked to do the same.
+    pub older: Vec<Older>,
     /// Figures of the thesis that were drawn.
     pub drawn: Vec<String>,
     /// Figures of the thesis for which there are no data.
@@ -97,7 +100,8 @@ pub fn write_report(directories: &[PathBuf], out: Option<&Path>) -> Result<Repor
             .map(|figure| figure.id.clone())
             .collect()
     };
-    Ok(Report { page, runs: set.runs.len(), drawn: ids(true), missing: ids(false), claims })
+    let (drawn, missing) = (ids(true), ids(false));
+    Ok(Report { page, runs: set.runs.len(), older: set.older, drawn, missing, claims })
 }
 
 /// Writes a figure's SVG and CSV; of a figure without data, removes those of an earlier report.
@@ -115,6 +119,11 @@ fn write_figure(directory: &Path, figure: &Figure) -> Result<()> {
     write_whole(&csv, |file| chart.write_csv(file))
 }
 
+/// A path as far as it is text: JSON has nothing else.
+fn as_text<S: Serializer>(path: &Path, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    serializer.collect_str(&path.display())
+}
+
 /// Bytes as a `data:` URI.
 fn data_uri(kind: &str, bytes: &[u8]) -> String {
     format!("data:{kind};base64,{}", STANDARD.encode(bytes))
@@ -123,6 +132,7 @@ fn data_uri(kind: &str, bytes: &[u8]) -> String {
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{} runs; figures drawn: {}", self.runs, self.drawn.join(" "))?;
+        self.older.iter().try_for_each(|older| writeln!(f, "{older}"))?;
         if !self.missing.is_empty() {
             writeln!(f, "no data for figures: {}", self.missing.join(" "))?;
         }

@@ -2,6 +2,7 @@
 
 use super::way::Way;
 use crate::methods::{MethodSpec, Sharing, Space};
+use crate::output::Older;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -34,6 +35,8 @@ pub mod metric {
 pub struct ResultSet {
     /// By setting, lighting, method.
     pub runs: Vec<Run>,
+    /// Runs that are left out, for there are newer ones that were asked to do the same.
+    pub older: Vec<Older>,
     /// Version of the program that measured.
     pub version: String,
     /// Its git revision.
@@ -68,6 +71,8 @@ pub struct LightingName {
     pub count: Option<u32>,
     /// For people: `10 000 lights`.
     pub label: String,
+    /// Hexadecimal SHA-256 of the file of lights, where one made them.
+    pub sha256: Option<String>,
 }
 
 /// One run directory.
@@ -161,7 +166,8 @@ impl ResultSet {
     /// The runs of one way alone.
     pub fn by_way(&self, way: &Way) -> Self {
         let runs = self.runs.iter().filter(|run| run.setting.way == *way).cloned().collect();
-        Self { runs, version: self.version.clone(), git_revision: self.git_revision.clone() }
+        let [version, git_revision] = [&self.version, &self.git_revision].map(String::clone);
+        Self { runs, older: self.older.clone(), version, git_revision }
     }
 
     /// The runs of a setting.

@@ -39,7 +39,7 @@ pub fn run(method: &str, views: u32, lights: u32, value: impl Fn(&str, u32) -> O
         name: format!("{method}_{lights}"),
         setting: setting(views),
         method,
-        lighting: LightingName { count: Some(lights), label: format!("{lights} lights") },
+        lighting: LightingName { count: Some(lights), label: format!("{lights} lights"), sha256: None },
         device: ["device".into(), "driver 1".into(), "1.3".into()],
         started: "2026-01-01T00:00:00Z".into(),
         duration_s: 2.0,
@@ -60,7 +60,7 @@ pub fn run(method: &str, views: u32, lights: u32, value: impl Fn(&str, u32) -> O
 
 /// A result set of these runs.
 pub fn set(runs: Vec<Run>) -> ResultSet {
-    ResultSet { runs, version: "0.1.0".into(), git_revision: "unknown".into() }
+    ResultSet { runs, older: vec![], version: "0.1.0".into(), git_revision: "unknown".into() }
 }
 
 /// Fails where XML is not well-formed: tags that do not nest, attributes without quotes, stray signs.

@@ -60,7 +60,8 @@ pub fn compose(show: &Show, layers: &Layers, grids: &[Grid], view: ViewPixels) -
         };
         *target = Rgb(over(shown).map(|c| (srgb_encode(c.clamp(0.0, 1.0)) * 255.0).round() as u8));
         let [r, g, b] = over(linear).map(f16::from_f32);
-        color.push([r, g, b, f16::ONE]);
+        let below = covered(show, layers, position) * (1.0 - coverage.min(1.0));
+        color.push([r, g, b, f16::from_f32(below + coverage.min(1.0))]);
     }
     let pixels = ViewPixels {
         color,
@@ -71,6 +72,14 @@ pub fn compose(show: &Show, layers: &Layers, grids: &[Grid], view: ViewPixels) -
         ..view
     };
     (image, pixels)
+}
+
+/// How much of a pixel is covered below the overlay, 0 to 1.
+fn covered(show: &Show, layers: &Layers, position: usize) -> f32 {
+    match (&layers.shaded, show.base) {
+        (Some(shaded), Base::Picture) => shaded[position][3].to_f32(),
+        _ => f32::from(u8::from(layers.distance[position].is_finite())),
+    }
 }
 
 /// A pixel's cluster with the clustering it belongs to.

@@ -2,9 +2,14 @@
 
 use super::writer::{Files, device};
 use super::{Failure, Fingerprint, Part, failure};
-use crate::output::{DeviceInfo, PlannedRun, prepare_output, remove_abandoned, saved_fingerprint};
+use crate::config::Config;
+use crate::output::{
+    DeviceInfo, PlannedRun, check_run, is_complete, prepare_output, remove_abandoned, saved_fingerprint,
+};
 use crate::recording::{self, Recording};
-use crate::replay::{Inputs, Player, Watch, device_info, frame_total, plan_frames, shader_library};
+use crate::replay::{
+    Inputs, Player, Watch, device_info, frame_total, plan_frames, shader_library, shape_note,
+};
 use crate::scene::{Scene, procedural};
 use crate::{Error, Result};
 use std::cell::Cell;
@@ -55,6 +60,18 @@ struct Open<'a> {
     inputs: &'a Inputs,
     /// Frames that one run submits.
     frames: u64,
+}
+
+impl Open<'_> {
+    /// What is good to know before its runs are made.
+    fn notes(&self) -> Result<impl Iterator<Item = String>> {
+        let Config { exr, resolution, frames, .. } = &self.part.config;
+        let shape = match exr.is_empty() {
+            true => None,
+            false => shape_note(&self.inputs.recording, frames.first, *resolution)?,
+        };
+        Ok(self.inputs.rain_note().into_iter().chain(shape))
+    }
 }
 
 /// Runs to make, each with its fingerprint.
@@ -128,11 +145,11 @@ impl<'a> Sweep<'a> {
     }
 
     fn run_part(&mut self, open: &Open, device: &DeviceInfo, shaders: &str) -> Result<()> {
-        let fingerprint = Fingerprint::new(&open.part.config, open.inputs, device, shaders)?;
+        let fingerprint = Fingerprint::new(open.inputs, device, shaders);
         let mut pending: Pending = Vec::new();
         for run in &open.part.runs {
             let wanted = fingerprint.of(&open.part.run_config(run))?;
-            if !self.force && saved_fingerprint(&open.part.path(run)).is_some_and(|saved| saved == wanted) {
+            if !self.force && self.is_there(&open.part.path(run), &wanted) {
                 failure::forget(open.part, run)?;
                 self.outcome.skipped += 1;
                 self.reporter.skip(open.frames);
@@ -142,6 +159,9 @@ impl<'a> Sweep<'a> {
         }
         if pending.is_empty() {
             return Ok(());
+        }
+        for note in open.notes()? {
+            self.reporter.note(&note);
         }
         let (mut player, pending) = self.checked(open, pending)?;
         for (run, fingerprint) in pending {
@@ -158,6 +178,20 @@ impl<'a> Sweep<'a> {
             }
         }
         player.map_or(Ok(()), Player::finish)
+    }
+
+    /// Whether the run in `directory` is the one that is wanted, and whole; says why it is made again where not.
+    fn is_there(&self, directory: &Path, fingerprint: &str) -> bool {
+        if !is_complete(directory) {
+            return false;
+        }
+        match check_run(directory) {
+            Ok(()) => saved_fingerprint(directory).is_some_and(|saved| saved == fingerprint),
+            Err(error) => {
+                self.reporter.note(&format!("{error}; the run is made again"));
+                false
+            }
+        }
     }
 
     /// Opens the device, and sorts out what it cannot play before anything is played.

@@ -18,25 +18,18 @@ const LEFT_OUT: [&str; 4] = ["out", "device", "shaders", "lights_file"];
 
 impl Fingerprint {
     /// Takes the content of scene, recording, static lights and shaders, the program, and the device.
-    ///
-    /// # Errors
-    /// The file of static lights cannot be read any more.
-    pub fn new(config: &Config, inputs: &Inputs, device: &DeviceInfo, shaders: &str) -> Result<Self> {
-        let lights = match &config.lights_file {
-            Some(path) => sha256(&std::fs::read(path).map_err(|error| Error::file(path, error))?),
-            None => String::new(),
-        };
+    pub fn new(inputs: &Inputs, device: &DeviceInfo, shaders: &str) -> Self {
         let shared = json!({
             "format": RUN_FORMAT,
             "version": env!("CARGO_PKG_VERSION"),
             "git_revision": git_revision(),
             "scene": inputs.scene.sha256,
             "recording": inputs.recording.sha256(),
-            "lights_file": lights,
+            "lights_file": inputs.lights_sha256.as_deref().unwrap_or_default(),
             "shaders": shaders,
             "device": device,
         });
-        Ok(Self { shared })
+        Self { shared }
     }
 
     /// The fingerprint of the run that `config` makes and no other: hexadecimal SHA-256.

@@ -35,6 +35,12 @@ impl Files<'_> {
         result
     }
 
+    fn lights_file(&self) -> Option<Source> {
+        let path = self.part.config.lights_file.as_ref()?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Some(Source { name, sha256: self.inputs.lights_sha256.clone()? })
+    }
+
     fn manifest(&self, run: &PlannedRun, result: &RunResult) -> Manifest {
         let Inputs { scene, recording, .. } = self.inputs;
         Manifest {
@@ -51,6 +57,8 @@ impl Files<'_> {
             assigned_by: result.assigner.to_string(),
             scene: Source { name: scene.name.clone(), sha256: scene.sha256.clone() },
             recording: Source { name: recording.name().to_owned(), sha256: recording.sha256().to_owned() },
+            lights_file: self.lights_file(),
+            frame_count: result.counts.len(),
             device: device(&result.device),
             capacities: result.capacities,
             growth: result.growth.clone(),
@@ -84,7 +92,7 @@ impl RunSink for Files<'_> {
         let manifest = self.manifest(run, &result);
         let writer = self.writer.take().ok_or_else(not_begun)?;
         if !result.traces.is_empty() {
-            writer.write_trace(&result.traces)?;
+            self.noted(writer.write_trace(&result.traces))?;
         }
         if run.assign == Assign::Auto {
             self.reporter.note(&format!("{}: lights assigned by {}", run.name, result.assigner));

@@ -139,6 +139,20 @@ impl Context {
         unsafe { self.device.device_wait_idle() }.map_err(|e| vk_error("waiting for the GPU", e))
     }
 
+    /// Refuses a device on which nothing can be timed.
+    ///
+    /// # Errors
+    /// It has no timestamps.
+    pub fn require_timestamps(&self) -> Result<()> {
+        if self.limits.timestamp_valid_bits > 0 {
+            return Ok(());
+        }
+        Err(Error::Device(format!(
+            "{} has no timestamps, so nothing can be timed on it: choose another --device",
+            self.info.name
+        )))
+    }
+
     /// Submits one recorded command buffer; `fence` (or null) signals when it is done.
     pub fn submit(&self, cmd: vk::CommandBuffer, fence: vk::Fence) -> Result<()> {
         let commands = [vk::CommandBufferSubmitInfo::default().command_buffer(cmd)];

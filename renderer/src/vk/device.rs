@@ -3,7 +3,7 @@
 use super::features::Features;
 use super::instance::Instance;
 use super::limits::{DeviceInfo, Limits, read_info, read_limits, version_text};
-use super::{bytes_text, vk_error};
+use super::{bytes_text, no_device, vk_error};
 use crate::{Error, Result};
 use ash::vk;
 use serde::Serialize;
@@ -20,9 +20,18 @@ pub(super) struct Candidate {
 }
 
 /// All devices of `instance`, in the loader's order.
+///
+/// # Errors
+/// [`Error::Device`] when there is none.
 pub(super) fn candidates(instance: &Instance) -> Result<Vec<Candidate>> {
-    let physical_devices = unsafe { instance.handle.enumerate_physical_devices() }
-        .map_err(|e| vk_error("listing the Vulkan devices", e))?;
+    let physical_devices = unsafe { instance.handle.enumerate_physical_devices() }.map_err(|e| match e {
+        // So the loader says that of the installed drivers none finds a device it can serve.
+        vk::Result::ERROR_INITIALIZATION_FAILED | vk::Result::ERROR_INCOMPATIBLE_DRIVER => no_device(),
+        other => vk_error("listing the Vulkan devices", other),
+    })?;
+    if physical_devices.is_empty() {
+        return Err(no_device());
+    }
     Ok(physical_devices.into_iter().map(|physical| candidate(&instance.handle, physical)).collect())
 }
 
@@ -107,24 +116,13 @@ fn best(devices: &[Named]) -> Result<usize> {
         _ => 3,
     };
     let usable = devices.iter().enumerate().filter(|(_, (_, unusable))| unusable.is_none());
-    usable.min_by_key(|(_, (info, _))| rank(info)).map(|(index, _)| index).ok_or_else(|| match devices {
-        [] => no_device(),
-        _ => Error::Device(format!("no usable Vulkan device: {}", roll(devices))),
-    })
-}
-
-fn no_device() -> Error {
-    Error::Device(
-        "no Vulkan device: install your GPU's driver, or the software device lavapipe (Debian: apt install \
-         mesa-vulkan-drivers)"
-            .into(),
-    )
+    usable
+        .min_by_key(|(_, (info, _))| rank(info))
+        .map(|(index, _)| index)
+        .ok_or_else(|| Error::Device(format!("no usable Vulkan device: {}", roll(devices))))
 }
 
 fn roll(devices: &[Named]) -> String {
-    if devices.is_empty() {
-        return "none".into();
-    }
     let entry = |(index, (info, unusable)): (usize, &Named)| match unusable {
         Some(reason) => format!("{index} {} (unusable: {reason})", info.name),
         None => format!("{index} {}", info.name),
@@ -155,11 +153,11 @@ pub struct DeviceListing {
 }
 
 impl DeviceListing {
-    /// Lists the devices; fails as [`list_devices`] does, and where there is none.
+    /// Lists the devices; fails as [`list_devices`] does.
     pub fn new() -> Result<Self> {
         let listed = |(index, (info, limits, unusable))| ListedDevice { index, info, unusable, limits };
         let devices: Vec<_> = list_devices()?.into_iter().enumerate().map(listed).collect();
-        if devices.is_empty() { Err(no_device()) } else { Ok(Self { devices }) }
+        Ok(Self { devices })
     }
 }
 
@@ -219,7 +217,7 @@ impl fmt::Display for ListedDevice {
 /// Every device with its limits and, where it cannot run the renderer, why.
 ///
 /// # Errors
-/// [`Error::Device`] when the Vulkan loader or every driver is missing.
+/// [`Error::Device`] when the Vulkan loader, every driver or every device is missing.
 pub fn list_devices() -> Result<Vec<(DeviceInfo, Limits, Option<String>)>> {
     let instance = Instance::new(false)?;
     Ok(candidates(&instance)?.into_iter().map(|c| (c.info, c.limits, c.unusable)).collect())
@@ -252,7 +250,6 @@ mod tests {
 
     #[test]
     fn no_usable_device_is_an_error_that_says_why() {
-        assert!(best(&[]).unwrap_err().to_string().contains("mesa-vulkan-drivers"));
         let error = best(&devices(&[("Old", "discrete", false)])).unwrap_err().to_string();
         assert!(error.contains("0 Old (unusable: it lacks dynamicRendering)"), "{error}");
     }

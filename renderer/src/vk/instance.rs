@@ -1,7 +1,7 @@
 //! Loader and instance: the part of Vulkan before a device is chosen.
 
 use super::validation::{ValidationLog, messenger_info};
-use super::vk_error;
+use super::{no_device, vk_error};
 use crate::{Error, Result};
 use ash::{ext, vk};
 use std::ffi::CStr;
@@ -149,11 +149,7 @@ fn has_extension(entry: &ash::Entry, layer: Option<&CStr>, name: &CStr) -> Resul
 
 fn instance_error(result: vk::Result) -> Error {
     match result {
-        vk::Result::ERROR_INCOMPATIBLE_DRIVER => Error::Device(
-            "no Vulkan driver found: install your GPU's driver, or the software device lavapipe \
-             (Debian: apt install mesa-vulkan-drivers)"
-                .into(),
-        ),
+        vk::Result::ERROR_INCOMPATIBLE_DRIVER | vk::Result::ERROR_INITIALIZATION_FAILED => no_device(),
         other => vk_error("making the Vulkan instance", other),
     }
 }

@@ -49,6 +49,15 @@ fn bytes_text(size: u64) -> String {
     }
 }
 
+/// No driver is installed, or none that finds a device of its own.
+fn no_device() -> Error {
+    Error::Device(
+        "no Vulkan driver with a device found: install your GPU's driver, or the software device lavapipe (Debian: apt \
+         install mesa-vulkan-drivers)"
+            .into(),
+    )
+}
+
 /// The error for a Vulkan call that failed while doing `what`: out of memory is the machine's lack, all else a fault.
 fn vk_error(what: &str, result: vk::Result) -> Error {
     match result {

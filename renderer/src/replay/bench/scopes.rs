@@ -34,6 +34,7 @@ pub struct ScopesRow {
 /// As [`crate::replay::replay`].
 pub fn bench_scopes(config: &Config, inputs: &Inputs, watch: &Watch) -> Result<Vec<ScopesRow>> {
     let mut session = Session::new(config, &inputs.scene, inputs.recording.view_names().len())?;
+    session.context.require_timestamps()?;
     let runs = planned_runs(config);
     let rows = runs.iter().map(|run| measure(config, inputs, &mut session, run, watch));
     let rows = rows.collect::<Result<_>>()?;

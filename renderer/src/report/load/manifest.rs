@@ -20,6 +20,7 @@ pub struct RunFile {
     pub config: RunConfig,
     scene: Source,
     recording: Source,
+    lights_file: Option<Source>,
     device: Device,
     pub started: String,
     pub duration_s: f64,
@@ -160,10 +161,24 @@ impl RunFile {
                     label += &format!(", {name} {value}");
                 }
             }
-            return LightingName { count: Some(count), label };
+            return LightingName { count: Some(count), label, sha256: None };
         }
-        let label = self.config.lights_file.clone().unwrap_or_else(|| "the scene's lights".into());
-        LightingName { count: None, label }
+        match &self.lights_file {
+            Some(Source { name, sha256 }) => {
+                let label = format!("{name} ({sha256:.8})");
+                LightingName { count: None, label, sha256: Some(sha256.clone()) }
+            }
+            None => {
+                let label = self.config.lights_file.clone().unwrap_or_else(|| "the scene's lights".into());
+                LightingName { count: None, label, sha256: None }
+            }
+        }
+    }
+
+    /// What tells its lights from those of others.
+    pub fn lights_key(&self) -> String {
+        let LightingName { label, sha256, .. } = self.lighting();
+        sha256.unwrap_or(label)
     }
 
     pub fn device(&self) -> [String; 3] {
