@@ -39,7 +39,8 @@ impl Scene {
             return Err(format!("light {light} has a number that is not finite"));
         }
         if self.triangle_count() == 0 {
-            return Err("has no triangle to draw".into());
+            let why: String = self.warnings.iter().map(|warning| format!("; {warning}")).collect();
+            return Err(format!("has no triangle to draw{why}"));
         }
         match self.bounds() {
             Some((min, max)) if min.is_finite() && max.is_finite() => Ok(()),

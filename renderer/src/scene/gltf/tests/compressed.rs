@@ -125,6 +125,11 @@ fn draco_is_left_out_with_a_warning_unless_it_has_a_fallback() {
     asset.json["meshes"][0]["primitives"][0]["extensions"] = draco.clone();
     let scene = asset.load().unwrap();
     assert_eq!((scene.triangle_count(), scene.warnings.len()), (1, 0), "its accessor has data");
+    asset.json["accessors"][0].as_object_mut().unwrap().remove("bufferView");
+    let nothing =
+        "has no triangle to draw; primitives compressed with Draco (KHR_draco_mesh_compression) left out: 1";
+    assert_eq!(asset.error(), nothing);
+    asset.json["accessors"][0]["bufferView"] = json!(0);
 
     let hollow =
         push(&mut asset.json["accessors"], json!({ "componentType": F32, "count": 300, "type": "VEC3" }));
