@@ -1,13 +1,13 @@
 //! glTF 2.0 (.gltf, .glb).
 //!
 //! Objects of the JSON are read one by one through the `gltf` crate's types as the walk through the scene reaches
-//! them ([`document`]); everything they point to is range-checked here before it is used, because that crate trusts
+//! them (`document`); everything they point to is range-checked here before it is used, because that crate trusts
 //! (and panics on) what it has not validated, and its validation knows no extensions.
 //!
 //! Read: node hierarchies of the default scene, instances, skins and morph targets at rest, triangle lists, strips and
 //! fans, vertex colours, two texture coordinate sets a material, sparse, quantized and meshopt-compressed accessors,
 //! metallic-roughness and unlit materials, point lights. Ignored: animation, cameras. What else changes the picture is
-//! left out with a warning ([`left_out`]), or refused where the file requires it.
+//! left out with a warning (`left_out`), or refused where the file requires it.
 
 mod accessor;
 mod attributes;

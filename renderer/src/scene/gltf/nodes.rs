@@ -1,6 +1,7 @@
 //! The node hierarchy of the default scene, flattened.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 use glam::{DMat4, DQuat, DVec3, Mat3, Mat4, Quat, Vec3};
 use gltf::json;
@@ -84,10 +85,9 @@ impl Placed {
             _ => world_outside_scene(document, node),
         };
         for skin in self.shapes.iter().filter_map(|shape| shape.skin) {
-            if !self.skins.contains_key(&skin) {
+            if let Entry::Vacant(place) = self.skins.entry(skin) {
                 let posed = Skin::read(document, json::Index::new(skin as u32), world);
-                let posed = posed.map_err(|message| format!("skins[{skin}] {message}"))?;
-                self.skins.insert(skin, posed);
+                place.insert(posed.map_err(|message| format!("skins[{skin}] {message}"))?);
             }
         }
         for placed in &mut self.meshes {

@@ -197,17 +197,22 @@ fn containers_are_checked() {
     assert_eq!(refused("scene.fbx", b""), "is not a scene: give a .gltf, .glb or .obj file");
 }
 
+/// Files of every kind of geometry.
+const ASSETS: [fn() -> Asset; 5] =
+    [everything, posed::morphed, posed::skinned, instanced, compressed::compressed];
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(256))]
 
     /// Bytes flipped anywhere, then cut anywhere: loading ends in a valid scene or one line.
     #[test]
     fn damaged_files_never_panic(
+        which in 0..5_usize,
         flips in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..6),
         cut in prop::option::of(any::<prop::sample::Index>()),
         fix_length in any::<bool>(),
     ) {
-        let mut glb = everything().glb();
+        let mut glb = ASSETS[which]().glb();
         for (place, value) in &flips {
             let place = place.index(glb.len());
             glb[place] = *value;
@@ -229,10 +234,11 @@ proptest! {
     /// The same for the JSON alone, whose numbers are what is trusted least.
     #[test]
     fn wild_numbers_never_panic(
+        which in 0..5_usize,
         field in 0..1000_usize,
         number in prop_oneof![Just(0), Just(1), Just(u64::MAX), Just(u64::from(u32::MAX)), 0..100_u64],
     ) {
-        let mut asset = everything();
+        let mut asset = ASSETS[which]();
         let mut numbers = Vec::new();
         collect_numbers(&asset.json, String::new(), &mut numbers);
         set(&mut asset.json, &numbers[field % numbers.len()], json!(number));
@@ -240,6 +246,15 @@ proptest! {
             prop_assert!(scene.validate().is_ok());
         }
     }
+}
+
+/// A node with two instances.
+fn instanced() -> Asset {
+    let mut asset = Asset::triangle();
+    let places = asset.floats("VEC3", &[0.0, 0.0, 0.0, 1.0, 2.0, 3.0]);
+    asset.json["nodes"][0]["extensions"] =
+        json!({ "EXT_mesh_gpu_instancing": { "attributes": { "TRANSLATION": places, "SCALE": places } } });
+    asset
 }
 
 fn collect_numbers(json: &Value, pointer: String, numbers: &mut Vec<String>) {

@@ -74,7 +74,7 @@ fn instances_that_cannot_be_are_refused() {
 }
 
 /// A triangle with normals and tangents and two morph targets, the second sparse.
-fn morphed() -> Asset {
+pub fn morphed() -> Asset {
     let mut asset = Asset::triangle();
     let normals = asset.accessor("VEC3", I8, true, bytemuck::cast_slice(&[0_i8, 0, 127].repeat(3)));
     asset.attribute("NORMAL", normals);
@@ -139,7 +139,7 @@ fn targets_that_weigh_nothing_are_not_looked_at() {
 }
 
 /// A triangle on two joints, nodes 1 and 2: the first corner follows both alike, the others one each.
-fn skinned() -> Asset {
+pub fn skinned() -> Asset {
     let mut asset = Asset::triangle();
     let normals = asset.floats("VEC3", &[0.0, 0.0, 1.0].repeat(3));
     asset.attribute("NORMAL", normals);
