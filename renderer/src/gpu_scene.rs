@@ -109,6 +109,7 @@ fn material_data(material: &Material) -> MaterialData {
         occlusion_strength: material.occlusion_strength,
         alpha_cutoff: material.alpha_cutoff,
         uv_slots,
+        unlit: material.unlit.into(),
         uv_rows,
     }
 }

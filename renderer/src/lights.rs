@@ -86,19 +86,19 @@ impl LightSource {
 ///
 /// The file's luminous intensity is taken as I as it stands, for both mean E = I/d^2 at distance d; its colour is
 /// the tint. R1 = min(sqrt(I/I0), range): where the range is the shorter one, the light's cut-off is raised to
-/// I/range^2, so that the light still fades to nothing at R1. R0 is at most R1/2. Lights of no intensity are
-/// left out.
+/// I/range^2, so that the light still fades to nothing at R1. R0 is at most R1/2. Lights of no intensity or range
+/// light nothing and are left out.
 ///
 /// # Errors
 /// [`Error::Input`] where the cut-off or R0 is no number above 0, a light has a value that is no light's, or
-/// no light is left.
+/// no light is left; lights are numbered as the scene has them.
 pub fn from_scene(lights: &[SceneLight], cutoff: f32, r0: f32) -> Result<Vec<PointLight>> {
     for (name, value) in [("cut-off I0", cutoff), ("near radius R0", r0)] {
         if !(value.is_finite() && value > 0.0) {
             return Err(Error::input(format!("scene lights: a {name} of {value} is not above 0")));
         }
     }
-    let lit = lights.iter().enumerate().filter(|(_, light)| light.intensity != 0.0);
+    let lit = lights.iter().enumerate().filter(|(_, light)| reaches_something(light));
     let found = lit
         .map(|(index, light)| {
             let light = from_scene_light(light, cutoff, r0);
@@ -110,10 +110,16 @@ pub fn from_scene(lights: &[SceneLight], cutoff: f32, r0: f32) -> Result<Vec<Poi
         .collect::<Result<Vec<_>>>()?;
     if found.is_empty() {
         return Err(Error::input(
-            "the scene has no point lights (KHR_lights_punctual); use rain or a lights file",
+            "the scene has no point lights that reach anything (KHR_lights_punctual); use rain or a lights file",
         ));
     }
     Ok(found)
+}
+
+/// False where intensity or range is 0, or the range so short that I/range^2 is no number any more.
+fn reaches_something(light: &SceneLight) -> bool {
+    let bounded = |range: f32| light.intensity / (range * range) < f32::INFINITY;
+    light.intensity != 0.0 && light.range.is_none_or(bounded)
 }
 
 fn from_scene_light(light: &SceneLight, cutoff: f32, r0: f32) -> PointLight {
@@ -151,11 +157,13 @@ mod tests {
             scene_light(8.0, Some(2.0)),
             scene_light(8.0, Some(9.0)),
             scene_light(8.0, Some(0.1)),
+            scene_light(8.0, Some(0.0)),
+            scene_light(8.0, Some(1e-30)),
         ];
         let found = from_scene(&lights, 0.5, 0.1).unwrap();
         let radii: Vec<_> = found.iter().map(|l| (l.cutoff, l.r0, l.r1)).collect();
         assert_eq!(radii[..3], [(0.5, 0.1, 4.0), (2.0, 0.1, 2.0), (0.5, 0.1, 4.0)]);
-        assert_eq!((radii[3].1, radii[3].2), (0.05, 0.1));
+        assert_eq!((radii.len(), radii[3].1, radii[3].2), (4, 0.05, 0.1));
         assert_eq!(found[0].position, [1.0, 2.0, 3.0]);
         assert_eq!(found[0].tint, [1.0, 0.5, 0.25]);
         assert_eq!(found[0].intensity, 8.0);
@@ -168,7 +176,8 @@ mod tests {
         assert!(message(&[scene_light(0.0, None)]).contains("no point lights"));
         assert!(message(&[scene_light(-1.0, None)]).starts_with("scene light 0: i: -1"));
         assert!(message(&[scene_light(1.0, None), scene_light(f32::NAN, None)]).starts_with("scene light 1"));
-        assert!(message(&[scene_light(1.0, Some(0.0))]).starts_with("scene light 0"));
+        assert!(message(&[scene_light(1.0, Some(0.0))]).contains("no point lights that reach anything"));
+        assert!(message(&[scene_light(1.0, Some(-1.0))]).starts_with("scene light 0: r1: -1"));
         assert!(from_scene(&[scene_light(1.0, None)], 0.0, 0.1).is_err());
         assert!(from_scene(&[scene_light(1.0, None)], 0.5, f32::NAN).is_err());
     }

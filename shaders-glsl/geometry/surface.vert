@@ -66,7 +66,8 @@ void main()
     // The cofactor matrix carries normals through any affine map, mirroring included.
     mat3 linear = mat3(world_from_object);
     mat3 cofactor = mat3(cross(linear[1], linear[2]), cross(linear[2], linear[0]), cross(linear[0], linear[1]));
-    float mirrored = sign(determinant(linear));
+    // Scaled to nothing along one axis it mirrors nothing: the surface is flat, and its normals remain.
+    float mirrored = determinant(linear) < 0.0 ? -1.0 : 1.0;
     out_normal = mirrored * (cofactor * normal);
 #if VIEWS
     out_view = view;

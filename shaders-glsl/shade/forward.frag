@@ -77,10 +77,17 @@ void main()
         out_color = vec4(MISSING_CLUSTER, 1.0);
         return;
     }
-    float occlusion = sample_texture(occlusion_texture, 3u, at).r;
-    vec3 radiance = AMBIENT * base.rgb * mix(1.0, occlusion, material.occlusion_strength);
-    radiance += material.emissive * sample_texture(emissive_texture, 4u, at).rgb;
-    radiance += shade_lights(surface_at(at, view, base.rgb), cursor);
+    vec3 radiance;
+    if (material.unlit != 0u) {
+        // It is shaded, by no light.
+        radiance = base.rgb;
+        count_fragment(0u, 0u, 0u);
+    } else {
+        float occlusion = sample_texture(occlusion_texture, 3u, at).r;
+        radiance = AMBIENT * base.rgb * mix(1.0, occlusion, material.occlusion_strength);
+        radiance += material.emissive * sample_texture(emissive_texture, 4u, at).rgb;
+        radiance += shade_lights(surface_at(at, view, base.rgb), cursor);
+    }
     // Half floats end at 65504; a light grazed at R0 may exceed that.
     out_color = vec4(min(radiance, vec3(65504.0)), TRANSPARENT != 0 ? base.a : 1.0);
 }

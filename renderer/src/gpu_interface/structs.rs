@@ -121,6 +121,8 @@ gpu_struct! {
         pub alpha_cutoff: f32,
         /// Bit s: texture s reads the second uv set.
         pub uv_slots: u32,
+        /// 1 where base colour is radiance and no light is evaluated, else 0.
+        pub unlit: u32,
         /// Two rows of an affine map per texture.
         pub uv_rows: [[f32; 3]; 10],
     }

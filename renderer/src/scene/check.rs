@@ -35,14 +35,12 @@ impl Scene {
                 return Err(format!("instance {i} has a transform that is not finite"));
             }
         }
-        for (i, light) in self.lights.iter().enumerate() {
-            let range = light.range.unwrap_or(0.0);
-            if !light.position.is_finite() || !finite(&light.color) || !finite(&[light.intensity, range]) {
-                return Err(format!("light {i} has a number that is not finite"));
-            }
+        if let Some(light) = self.lights.iter().position(|light| !light.is_finite()) {
+            return Err(format!("light {light} has a number that is not finite"));
         }
         if self.triangle_count() == 0 {
-            return Err("has no triangle to draw".into());
+            let why: String = self.warnings.iter().map(|warning| format!("; {warning}")).collect();
+            return Err(format!("has no triangle to draw{why}"));
         }
         match self.bounds() {
             Some((min, max)) if min.is_finite() && max.is_finite() => Ok(()),

@@ -35,6 +35,8 @@ pub struct SceneSummary {
     pub lights: u64,
     /// World-space bounds, metres.
     pub bounds: Option<BoundsSummary>,
+    /// As [`Scene::warnings`].
+    pub warnings: Vec<String>,
 }
 
 /// How many materials have each alpha mode.
@@ -97,6 +99,7 @@ impl Scene {
             bounds: self
                 .bounds()
                 .map(|(min, max)| BoundsSummary { min: min.to_array(), max: max.to_array() }),
+            warnings: self.warnings.clone(),
         }
     }
 }
@@ -141,6 +144,9 @@ impl fmt::Display for SceneSummary {
             let space = if image.srgb { "sRGB" } else { "linear" };
             write!(f, "\nimage       {size:<11} {space:<6} {:>2} mips  {}", image.mips, image.name)?;
         }
+        for warning in &self.warnings {
+            write!(f, "\nwarning     {warning}")?;
+        }
         Ok(())
     }
 }
@@ -161,6 +167,7 @@ mod tests {
     fn two_quads() -> Scene {
         let mut scene = Scene::empty("quads".into());
         scene.sha256 = "00ff".into();
+        scene.warnings = vec!["lines left out: 2".into()];
         scene.add_mesh(quad()).unwrap();
         scene.materials = vec![Material { alpha_mode: AlphaMode::Mask, ..Material::plain("leaf") }];
         scene.images =
@@ -193,11 +200,13 @@ mod tests {
             textures    0 from 1 images, 0.0 MiB\n\
             lights      0\n\
             bounds      (0.000, 0.000, 0.000) .. (11.000, 1.000, 0.000), size (11.000, 1.000, 0.000) m\n\
-            image       4x2         sRGB    3 mips  leaf.png";
+            image       4x2         sRGB    3 mips  leaf.png\n\
+            warning     lines left out: 2";
         assert_eq!(summary.to_string(), expected);
         let json = serde_json::to_value(&summary).unwrap();
         assert_eq!(json["materials"]["mask"], 1);
         assert_eq!(json["images"][0]["width"], 4);
+        assert_eq!(json["warnings"][0], "lines left out: 2");
     }
 
     #[test]

@@ -121,6 +121,8 @@ pub struct Material {
     pub alpha_cutoff: f32,
     /// Drawn without back-face culling, with the normal turned to the viewer.
     pub double_sided: bool,
+    /// Radiates its base colour and is not lit (KHR_materials_unlit).
+    pub unlit: bool,
     /// By [`TextureSlot`].
     pub textures: [Option<TextureRef>; 5],
 }
@@ -186,6 +188,14 @@ pub struct SceneLight {
     pub range: Option<f32>,
 }
 
+impl SceneLight {
+    /// Whether all its numbers are finite.
+    pub(crate) fn is_finite(&self) -> bool {
+        let numbers = [self.intensity, self.range.unwrap_or_default()];
+        self.position.is_finite() && self.color.iter().chain(&numbers).all(|x| x.is_finite())
+    }
+}
+
 /// Everything that can be drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
@@ -207,6 +217,8 @@ pub struct Scene {
     pub images: Vec<Image>,
     /// Point lights of the source.
     pub lights: Vec<SceneLight>,
+    /// What of the source is not drawn, or not as the source has it: a line a kind.
+    pub warnings: Vec<String>,
 }
 
 /// Reads a scene file: glTF 2.0 (.gltf, .glb) or Wavefront OBJ (.obj), told apart by extension.
@@ -220,6 +232,9 @@ pub fn load(path: &Path) -> Result<Scene> {
         "obj" => obj::load(path),
         _ => Err(Error::file(path, "is not a scene: give a .gltf, .glb or .obj file")),
     }?;
+    for warning in &scene.warnings {
+        tracing::warn!("{}: {warning}", path.display());
+    }
     scene.check().map_err(|message| Error::file(path, message))?;
     Ok(scene)
 }
@@ -243,6 +258,7 @@ impl Material {
             alpha_mode: AlphaMode::Opaque,
             alpha_cutoff: 0.5,
             double_sided: false,
+            unlit: false,
             textures: [None; 5],
         }
     }
@@ -273,6 +289,7 @@ impl Scene {
             materials: Vec::new(),
             images: Vec::new(),
             lights: Vec::new(),
+            warnings: Vec::new(),
         }
     }
 

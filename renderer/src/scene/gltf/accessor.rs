@@ -9,7 +9,7 @@ use json::validation::Checked;
 use super::document::{Document, slice};
 
 /// An accessor without a buffer view is all zeros, whatever its count: no memory backs it, so it is limited.
-const MAX_ZEROS: u64 = 1 << 24;
+const MAX_ZEROS: u64 = 1 << 22;
 
 /// A range-checked accessor.
 pub(super) struct Accessor<'a> {
@@ -43,12 +43,12 @@ struct Sparse<'a> {
 impl<'a> Accessor<'a> {
     /// The accessor at `index`, with all it refers to checked.
     pub fn new(document: &'a Document, index: json::Index<json::Accessor>) -> Result<Self, String> {
-        let accessor = document.get(&document.root.accessors, "accessors", index)?;
-        Self::checked(document, accessor, index.value())
+        let accessor = document.get(index)?;
+        Self::checked(document, &accessor, index.value())
             .map_err(|message| format!("accessors[{}] {message}", index.value()))
     }
 
-    fn checked(document: &'a Document, json: &'a json::Accessor, index: usize) -> Result<Self, String> {
+    fn checked(document: &'a Document, json: &json::Accessor, index: usize) -> Result<Self, String> {
         let Checked::Valid(component) = json.component_type else {
             return Err("has an unknown component type".into());
         };
@@ -88,17 +88,25 @@ impl<'a> Accessor<'a> {
         Err(format!("accessors[{}] has {} elements; POSITION has {count}", self.index, self.count))
     }
 
-    /// Takes integers as fractions of their range even where the file does not say so.
-    pub fn always_normalized(mut self) -> Self {
-        self.normalized = true;
-        self
-    }
-
     /// Calls `put` with each element of `range`, counted from its start, as floats; again with a sparse value
     /// where there is one. `N` is the number of lanes.
-    pub fn floats<const N: usize>(&self, range: Range<usize>, mut put: impl FnMut(usize, [f32; N])) {
+    pub fn floats<const N: usize>(&self, range: Range<usize>, put: impl FnMut(usize, [f32; N])) {
+        self.convert(range, self.normalized, put);
+    }
+
+    /// [`Accessor::floats`] that takes integers as fractions of their range even where the file does not say so.
+    pub fn normalized_floats<const N: usize>(&self, range: Range<usize>, put: impl FnMut(usize, [f32; N])) {
+        self.convert(range, true, put);
+    }
+
+    fn convert<const N: usize>(
+        &self,
+        range: Range<usize>,
+        normalized: bool,
+        mut put: impl FnMut(usize, [f32; N]),
+    ) {
         let put = &mut put;
-        match (self.component, self.normalized) {
+        match (self.component, normalized) {
             (ComponentType::F32, _) => self.walk(range, put, f32::from_le_bytes),
             (ComponentType::U32, _) => self.walk(range, put, |b| u32::from_le_bytes(b) as f32),
             (ComponentType::U8, false) => self.walk(range, put, |[b]: [u8; 1]| f32::from(b)),

@@ -1,51 +1,74 @@
-//! The container: GLB chunks, JSON, extensions, buffers.
+//! The document: its JSON, read object by object as they are reached, and the bytes of its buffers.
+//!
+//! What nothing that is drawn refers to is never looked at, so that it cannot refuse the file.
 
 use std::fmt::Display;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use gltf::json;
+use json::extensions::scene::khr_lights_punctual::Light;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
 
 use super::super::source::SourceFiles;
+use super::container;
+use super::extensions;
+use super::meshopt::{self, Compressed};
 use super::uri::{self, Target};
 use crate::{Error, Result};
 
-/// Extensions that a file may require.
-const SUPPORTED: [&str; 4] = [
-    "KHR_lights_punctual",
-    "KHR_materials_emissive_strength",
-    "KHR_mesh_quantization",
-    "KHR_texture_transform",
-];
-
-/// A parsed file with the bytes of its buffers. Indices within `root` are not yet trusted.
+/// A parsed file with the bytes of its buffers.
 pub(super) struct Document {
     pub path: PathBuf,
-    pub root: json::Root,
-    buffers: Vec<Vec<u8>>,
+    root: Map<String, Value>,
+    /// By buffer; one that cannot be read says why to whoever needs it.
+    buffers: Vec<Result<Vec<u8>, String>>,
+    /// By buffer view: the bytes of those that are compressed, once they are asked for.
+    decoded: Vec<OnceLock<Result<Vec<u8>, String>>>,
+}
+
+/// An object that others refer to by its place in an array.
+pub(super) trait Object: DeserializeOwned {
+    /// Path of that array from the root.
+    const ARRAY: &'static [&'static str];
+}
+
+macro_rules! objects {
+    ($($object:ty: $array:expr;)+) => { $(impl Object for $object { const ARRAY: &'static [&'static str] = &$array; })+ };
+}
+
+objects! {
+    json::Accessor: ["accessors"];
+    json::buffer::View: ["bufferViews"];
+    json::Image: ["images"];
+    json::Material: ["materials"];
+    json::Mesh: ["meshes"];
+    json::Node: ["nodes"];
+    json::Skin: ["skins"];
+    json::Texture: ["textures"];
+    json::texture::Sampler: ["samplers"];
+    Light: ["extensions", "KHR_lights_punctual", "lights"];
 }
 
 impl Document {
     /// Reads the file, checks version and required extensions, and reads the buffers.
     pub fn open(path: &Path, files: &mut SourceFiles) -> Result<Self> {
         let fail = |message: String| Error::file(path, message);
-        let mut bytes = files.read(path)?;
-        let (json, binary) = if bytes.starts_with(b"glTF") {
-            let chunks = glb_chunks(&bytes).map_err(fail)?;
-            let binary = chunks.binary.map(|range| {
-                bytes.truncate(range.end);
-                bytes.split_off(range.start)
-            });
-            (&bytes[chunks.json], binary)
+        let bytes = files.read(path)?;
+        let (json, binary) = if container::is_glb(&bytes) {
+            let chunks = container::chunks(&bytes).map_err(fail)?;
+            (&bytes[chunks.json], chunks.binary.map(|range| &bytes[range]))
         } else {
             (&bytes[..], None)
         };
-        let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
-        let root = json::Root::from_slice(json).map_err(|e| fail(format!("is not valid glTF: {e}")))?;
+        let root = parse(json).map_err(fail)?;
         check_version(&root).map_err(fail)?;
-        note_ignored(&root, path);
-        let mut document = Self { path: path.to_owned(), root, buffers: Vec::new() };
-        document.buffers = document.read_buffers(binary, files)?;
+        check_arrays(&root).map_err(fail)?;
+        extensions::check_required(&root).map_err(fail)?;
+        let mut document = Self { path: path.to_owned(), root, buffers: Vec::new(), decoded: Vec::new() };
+        document.buffers = document.read_buffers(binary, files);
+        document.decoded.resize_with(document.array(&["bufferViews"]).len(), OnceLock::new);
         Ok(document)
     }
 
@@ -54,44 +77,104 @@ impl Document {
         Error::file(&self.path, message)
     }
 
-    /// What `index` points to in `all`; `field` is the name of that array.
-    pub fn get<'a, T>(&self, all: &'a [T], field: &str, index: json::Index<T>) -> Result<&'a T, String> {
-        let i = index.value();
-        all.get(i).ok_or_else(|| format!("refers to {field}[{i}], which is not there ({} are)", all.len()))
+    /// A field of the document itself.
+    pub fn field(&self, name: &str) -> Option<&Value> {
+        self.root.get(name)
     }
 
-    /// The bytes of a buffer view, and the stride it gives.
+    /// How many objects of a kind there are.
+    pub fn count<T: Object>(&self) -> usize {
+        self.array(T::ARRAY).len()
+    }
+
+    /// What `index` refers to, as the file has it.
+    pub fn value<T: Object>(&self, index: json::Index<T>) -> Result<&Value, String> {
+        let (all, i) = (self.array(T::ARRAY), index.value());
+        let name = T::ARRAY.join(".");
+        all.get(i).ok_or_else(|| format!("refers to {name}[{i}], which is not there ({} are)", all.len()))
+    }
+
+    /// What `index` refers to.
+    pub fn get<T: Object>(&self, index: json::Index<T>) -> Result<T, String> {
+        T::deserialize(self.value(index)?).map_err(|e| {
+            format!("refers to {}[{}], which is not valid: {e}", T::ARRAY.join("."), index.value())
+        })
+    }
+
+    /// The bytes of a buffer view, decoded where it is compressed, and the stride it gives.
     pub fn view(&self, index: json::Index<json::buffer::View>) -> Result<(&[u8], Option<usize>), String> {
-        let view = self.get(&self.root.buffer_views, "bufferViews", index)?;
-        let buffer = self.get(&self.buffers, "buffers", json::Index::new(view.buffer.value() as u32))?;
-        let bytes =
-            slice(buffer, view.byte_offset.unwrap_or_default().0, view.byte_length.0).ok_or_else(|| {
-                let (view, buffer_index) = (index.value(), view.buffer.value());
-                let length = buffer.len();
-                format!("bufferViews[{view}] reaches beyond the {length} bytes of buffers[{buffer_index}]")
-            })?;
-        Ok((bytes, view.byte_stride.map(|stride| stride.0).filter(|&stride| stride > 0)))
+        let view = self.get(index)?;
+        let name = |message: String| format!("lies in bufferViews[{}], which {message}", index.value());
+        let stride = view.byte_stride.map(|stride| stride.0).filter(|&stride| stride > 0);
+        let others = view.extensions.as_ref().map(|e| &e.others);
+        let compressed =
+            others.and_then(|others| meshopt::EXTENSIONS.iter().find_map(|name| others.get(*name)));
+        let bytes = match compressed {
+            Some(json) => self.decoded[index.value()].get_or_init(|| self.decode(json)).as_deref(),
+            None => {
+                let (offset, length) = (view.byte_offset.unwrap_or_default().0, view.byte_length.0);
+                Ok(self.bytes(view.buffer.value(), offset, length).map_err(name)?)
+            }
+        };
+        Ok((bytes.map_err(|message| name(message.clone()))?, stride))
     }
 
-    fn read_buffers(&self, mut binary: Option<Vec<u8>>, files: &mut SourceFiles) -> Result<Vec<Vec<u8>>> {
-        let mut buffers = Vec::with_capacity(self.root.buffers.len());
-        for (i, buffer) in self.root.buffers.iter().enumerate() {
-            let fail = |message: &dyn Display| self.error(format!("buffers[{i}] {message}"));
-            let bytes = match &buffer.uri {
-                None if i == 0 => binary.take().ok_or_else(|| fail(&"has neither a uri nor a GLB chunk"))?,
-                None => return Err(fail(&"has no uri")),
-                Some(uri) => match uri::resolve(uri).map_err(|e| fail(&e))? {
-                    Target::Data(bytes) => bytes,
-                    Target::File(file) => files.read(&uri::beside(&self.path, &file))?,
-                },
-            };
-            if (bytes.len() as u64) < buffer.byte_length.0 {
-                let (held, declared) = (bytes.len(), buffer.byte_length.0);
-                return Err(fail(&format!("is truncated: {held} bytes of {declared}")));
+    /// Bytes of all buffers.
+    pub fn buffer_bytes(&self) -> u64 {
+        self.buffers.iter().flatten().map(|bytes| bytes.len() as u64).sum()
+    }
+
+    fn decode(&self, json: &Value) -> Result<Vec<u8>, String> {
+        let compressed: Compressed = serde::Deserialize::deserialize(json)
+            .map_err(|e| format!("is compressed, but how is not valid: {e}"))?;
+        let bytes = self.bytes(compressed.buffer as usize, compressed.byte_offset, compressed.byte_length)?;
+        compressed.decode(bytes)
+    }
+
+    fn bytes(&self, buffer: usize, offset: u64, length: u64) -> Result<&[u8], String> {
+        let held = self.buffers.len();
+        let bytes = self.buffers.get(buffer);
+        let bytes =
+            bytes.ok_or_else(|| format!("refers to buffers[{buffer}], which is not there ({held} are)"))?;
+        let bytes = bytes.as_ref().map_err(|message| format!("needs buffers[{buffer}], which {message}"))?;
+        slice(bytes, offset, length)
+            .ok_or_else(|| format!("reaches beyond the {} bytes of buffers[{buffer}]", bytes.len()))
+    }
+
+    /// The array at a path; empty where it is not there.
+    fn array(&self, path: &[&str]) -> &[Value] {
+        let (first, rest) = path.split_first().expect("a path has parts");
+        let found = rest.iter().try_fold(self.root.get(*first), |at, part| at.map(|value| value.get(part)));
+        found.flatten().and_then(Value::as_array).map_or(&[], Vec::as_slice)
+    }
+
+    fn read_buffers(&self, binary: Option<&[u8]>, files: &mut SourceFiles) -> Vec<Result<Vec<u8>, String>> {
+        let buffers = self.array(&["buffers"]).iter().enumerate();
+        buffers.map(|(i, buffer)| self.read_buffer(buffer, binary.filter(|_| i == 0), files)).collect()
+    }
+
+    fn read_buffer(
+        &self,
+        json: &Value,
+        binary: Option<&[u8]>,
+        files: &mut SourceFiles,
+    ) -> Result<Vec<u8>, String> {
+        let bytes = match json.get("uri").and_then(Value::as_str) {
+            None => binary.ok_or("has neither a uri nor a GLB chunk")?.to_vec(),
+            Some(uri) => match uri::resolve(uri)? {
+                Target::Data(bytes) => bytes,
+                Target::File(file) => {
+                    let read = files.read(&uri::beside(&self.path, &file));
+                    read.map_err(|error| format!("is not there: {error}"))?
+                }
+            },
+        };
+        match json.get("byteLength").and_then(Value::as_u64) {
+            Some(length) if length > bytes.len() as u64 => {
+                Err(format!("is truncated: {} bytes of {length}", bytes.len()))
             }
-            buffers.push(bytes);
+            _ => Ok(bytes),
         }
-        Ok(buffers)
     }
 }
 
@@ -102,64 +185,56 @@ pub(super) fn slice(bytes: &[u8], offset: u64, length: u64) -> Option<&[u8]> {
     bytes.get(start..end)
 }
 
-fn check_version(root: &json::Root) -> Result<(), String> {
-    let version = &root.asset.version;
-    if !version.starts_with("2.") {
-        return Err(format!("is glTF {version}; 2.0 is read"));
+fn parse(json: &[u8]) -> Result<Map<String, Value>, String> {
+    let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
+    // Some writers pad the JSON of a GLB file with zeros.
+    let end = json.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
+    match serde_json::from_slice(&json[..end]).map_err(|e| format!("is neither GLB nor valid JSON: {e}"))? {
+        Value::Object(root) => Ok(root),
+        _ => Err("is not glTF: its JSON is not an object".into()),
     }
-    let unknown: Vec<_> = root
-        .extensions_required
+}
+
+/// Every array that objects lie in is one.
+fn check_arrays(root: &Map<String, Value>) -> Result<(), String> {
+    let arrays = [
+        "accessors",
+        "buffers",
+        "bufferViews",
+        "images",
+        "materials",
+        "meshes",
+        "nodes",
+        "samplers",
+        "scenes",
+        "skins",
+        "textures",
+    ];
+    match arrays
         .iter()
-        .map(String::as_str)
-        .filter(|name| !SUPPORTED.contains(name))
-        .collect();
-    match unknown.as_slice() {
-        [] => Ok(()),
-        names => Err(format!("requires {}, which is not supported; export without", names.join(", "))),
+        .find(|array| root.get(**array).is_some_and(|value| !value.is_array() && !value.is_null()))
+    {
+        Some(array) => Err(format!("is not valid glTF: {array} is not an array")),
+        None => Ok(()),
     }
 }
 
-fn note_ignored(root: &json::Root, path: &Path) {
-    let ignored = root.extensions_used.iter().map(String::as_str).filter(|name| !SUPPORTED.contains(name));
-    let ignored: Vec<_> = ignored.collect();
-    if !ignored.is_empty() {
-        tracing::info!("{}: drawn without {}", path.display(), ignored.join(", "));
-    }
-}
-
-struct Chunks {
-    json: Range<usize>,
-    binary: Option<Range<usize>>,
-}
-
-/// Finds the chunks of a GLB file (glTF 2.0, section 4.4).
-fn glb_chunks(bytes: &[u8]) -> Result<Chunks, String> {
-    let word = |at: usize| -> Result<u32, String> {
-        let word = bytes.get(at..at + 4).and_then(|word| word.try_into().ok());
-        word.map(u32::from_le_bytes)
-            .ok_or_else(|| format!("is truncated: its GLB header ends at byte {}", bytes.len()))
+/// The version that the file says it is of, and the one that it needs (glTF 2.0, section 3.2).
+fn check_version(root: &Map<String, Value>) -> Result<(), String> {
+    let asset = root.get("asset");
+    let field = |name: &str| asset.and_then(|asset| asset.get(name));
+    let version = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+    let Some(found) = field("version").map(version) else {
+        // In glTF 1.0 the version was optional, and everything a map.
+        let old = root.get("meshes").is_some_and(Value::is_object);
+        let known = if old { "is glTF 1.0" } else { "has no asset.version, so it is not glTF 2.0" };
+        return Err(format!("{known}; 2.0 is read"));
     };
-    let (version, length) = (word(4)?, word(8)? as usize);
-    if version != 2 {
-        return Err(format!("is GLB version {version}; 2 is read"));
+    if found != "2" && !found.starts_with("2.") {
+        return Err(format!("is glTF {found}; 2.0 is read"));
     }
-    if length > bytes.len() {
-        return Err(format!("is truncated: {} bytes of {length}", bytes.len()));
+    match field("minVersion").map(version) {
+        Some(least) if least != "2" && least != "2.0" => Err(format!("needs glTF {least}; 2.0 is read")),
+        _ => Ok(()),
     }
-    let chunk = |at: usize, what: &str| -> Result<(u32, Range<usize>), String> {
-        let size = word(at)? as usize;
-        let range = at + 8..at + 8 + size;
-        if range.end > length {
-            return Err(format!("is corrupt: its {what} chunk reaches beyond the end"));
-        }
-        Ok((word(at + 4)?, range))
-    };
-    let (kind, json) = chunk(12, "JSON")?;
-    if kind != u32::from_le_bytes(*b"JSON") {
-        return Err("is corrupt: its first GLB chunk is not JSON".into());
-    }
-    let second = json.end.next_multiple_of(4);
-    let binary = if second + 8 <= length { Some(chunk(second, "binary")?) } else { None };
-    let binary = binary.filter(|(kind, _)| *kind == u32::from_le_bytes(*b"BIN\0")).map(|(_, range)| range);
-    Ok(Chunks { json, binary })
 }

@@ -1,58 +1,67 @@
 //! Materials, textures and the images they need (glTF 2.0, sections 3.8 and 3.9).
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use gltf::json;
 use json::extensions::texture::TextureTransform;
 use json::validation::Checked;
+use serde::Deserialize;
 
 use super::super::image::{Content, Encoded, make_all};
 use super::super::source::SourceFiles;
 use super::super::{AlphaMode, Image, Material, Sampler, TextureRef, TextureSlot, Wrap};
 use super::document::Document;
+use super::extensions;
+use super::left_out::LeftOut;
 use super::uri::{self, Target};
 use crate::{Error, Result};
 
 /// TEXCOORD_n sets that a material reads, by slot of [`super::super::Vertex::uv`].
 pub(super) type UvSets = [Option<u32>; 2];
 
-/// The materials of a document.
+/// The materials that primitives use.
 pub(super) struct Materials {
-    /// As in the document; the default one is appended where it is needed.
+    /// In the document's order; the default one comes last where it is needed.
     pub list: Vec<Material>,
+    /// By place in the document: the place in `list`.
+    places: BTreeMap<usize, u32>,
     /// By material.
     pub uv_sets: Vec<UvSets>,
     /// What [`TextureRef::image`] counts: an image of the document and how it is read.
     images: Vec<(usize, Content)>,
-    default: Option<u32>,
 }
 
 impl Materials {
-    /// Reads all materials; images are only noted.
-    pub fn read(document: &Document) -> Result<Self> {
+    /// Reads the materials in use, `None` for the default one; images are only noted.
+    pub fn read(
+        document: &Document,
+        used: impl Iterator<Item = Option<json::Index<json::Material>>>,
+        left_out: &mut LeftOut,
+    ) -> Result<Self> {
+        let used: BTreeSet<Option<usize>> =
+            used.map(|material| material.map(|index| index.value())).collect();
         let mut reader = Reader { document, images: Vec::new(), image_of: BTreeMap::new() };
-        let mut this = Self { list: Vec::new(), uv_sets: Vec::new(), images: Vec::new(), default: None };
-        for (i, json) in document.root.materials.iter().enumerate() {
-            let name = json.name.clone().unwrap_or_else(|| format!("material {i}"));
+        let (mut list, mut uv_sets, mut places) = (Vec::new(), Vec::new(), BTreeMap::new());
+        for &i in used.iter().flatten() {
             let (material, sets) = reader
-                .material(name, json)
+                .read(json::Index::new(i as u32), left_out)
                 .map_err(|message| document.error(format!("materials[{i}] {message}")))?;
-            this.list.push(material);
-            this.uv_sets.push(sets);
+            places.insert(i, list.len() as u32);
+            list.push(material);
+            uv_sets.push(sets);
         }
-        this.images = reader.images;
-        Ok(this)
+        if used.contains(&None) || list.is_empty() {
+            list.push(Material::plain("default"));
+            uv_sets.push([None; 2]);
+        }
+        Ok(Self { list, places, uv_sets, images: reader.images })
     }
 
-    /// The material of primitives that name none.
-    pub fn default_material(&mut self) -> u32 {
-        *self.default.get_or_insert_with(|| {
-            self.list.push(Material::plain("default"));
-            self.uv_sets.push([None; 2]);
-            self.list.len() as u32 - 1
-        })
+    /// The place in `list` of the material that a primitive names, or of the default one.
+    pub fn place(&self, material: Option<json::Index<json::Material>>) -> u32 {
+        material.map_or(self.list.len() as u32 - 1, |material| self.places[&material.value()])
     }
 
     /// Reads the images that materials use, in the document's order, and decodes them on all cores.
@@ -81,7 +90,7 @@ struct Source<'a> {
 impl<'a> Source<'a> {
     fn read(document: &'a Document, files: &mut SourceFiles, index: usize) -> Result<Self> {
         let fail = |message: &str| document.error(format!("images[{index}] {message}"));
-        let image = &document.root.images[index];
+        let image = document.get(json::Index::<json::Image>::new(index as u32)).map_err(|e| fail(&e))?;
         let name = image.name.clone().unwrap_or_else(|| format!("images[{index}]"));
         let inside = |bytes| Self { name: name.clone(), file: document.path.clone(), bytes };
         match (&image.uri, image.buffer_view) {
@@ -133,8 +142,21 @@ struct Reader<'a> {
     image_of: BTreeMap<(usize, u8), u32>,
 }
 
-impl<'a> Reader<'a> {
-    fn material(&mut self, name: String, json: &'a json::Material) -> Result<(Material, UvSets), String> {
+impl Reader<'_> {
+    fn read(
+        &mut self,
+        index: json::Index<json::Material>,
+        left_out: &mut LeftOut,
+    ) -> Result<(Material, UvSets), String> {
+        let value = self.document.value(index)?;
+        let mut json = json::Material::deserialize(value).map_err(|e| format!("is not valid: {e}"))?;
+        extensions::note_material(value, left_out);
+        take_specular_glossiness(&mut json, value.get("pbrMetallicRoughness").is_some(), left_out);
+        let name = json.name.clone().unwrap_or_else(|| format!("material {}", index.value()));
+        self.material(name, &json)
+    }
+
+    fn material(&mut self, name: String, json: &json::Material) -> Result<(Material, UvSets), String> {
         let Checked::Valid(alpha_mode) = json.alpha_mode else {
             return Err("has an unknown alphaMode".into());
         };
@@ -156,6 +178,7 @@ impl<'a> Reader<'a> {
             },
             alpha_cutoff: json.alpha_cutoff.unwrap_or_default().0,
             double_sided: json.double_sided,
+            unlit: json.extensions.as_ref().is_some_and(|e| e.unlit.is_some()),
             textures: [None; 5],
         };
         let uses = texture_uses(json)?;
@@ -168,15 +191,14 @@ impl<'a> Reader<'a> {
     }
 
     fn texture(&mut self, texture: &Use, sets: &UvSets, content: Content) -> Result<TextureRef, String> {
-        let root = &self.document.root;
-        let json = self.document.get(&root.textures, "textures", texture.texture)?;
+        let json = self.document.get(texture.texture)?;
         let (index, image) = (texture.texture.value(), json.source);
         if image.value() == u32::MAX as usize {
             return Err(format!("uses textures[{index}], which has no PNG or JPEG source"));
         }
-        self.document.get(&root.images, "images", image)?;
+        self.document.value(image)?;
         let sampler = match json.sampler {
-            Some(sampler) => read_sampler(self.document.get(&root.samplers, "samplers", sampler)?),
+            Some(sampler) => read_sampler(&self.document.get(sampler)?),
             None => Sampler { wrap: [Wrap::Repeat; 2], nearest: false },
         };
         Ok(TextureRef {
@@ -202,6 +224,26 @@ impl<'a> Reader<'a> {
         }
         place
     }
+}
+
+/// Gives a material of specular and glossiness (KHR_materials_pbrSpecularGlossiness) that has no `fallback` the
+/// metallic-roughness values that come closest to its diffuse colour and its gloss: a dielectric. Its specular colour
+/// and gloss map are left out.
+fn take_specular_glossiness(json: &mut json::Material, fallback: bool, left_out: &mut LeftOut) {
+    let Some(gloss) = json.extensions.as_mut().and_then(|e| e.pbr_specular_glossiness.take()) else { return };
+    if fallback {
+        return left_out
+            .add("materials of specular and glossiness, drawn by their metallic-roughness values", 1);
+    }
+    left_out.add(
+        "materials of specular and glossiness, drawn with their diffuse colour and gloss factor alone",
+        1,
+    );
+    let pbr = &mut json.pbr_metallic_roughness;
+    pbr.base_color_factor.0 = gloss.diffuse_factor.0;
+    pbr.base_color_texture = gloss.diffuse_texture;
+    pbr.metallic_factor.0 = 0.0;
+    pbr.roughness_factor.0 = 1.0 - gloss.glossiness_factor.0;
 }
 
 /// What a texture of `material` holds.

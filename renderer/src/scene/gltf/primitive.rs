@@ -1,7 +1,4 @@
-//! Primitives: vertex attributes and topology (glTF 2.0, section 3.7.2).
-
-use std::collections::BTreeSet;
-use std::ops::Range;
+//! Primitives: what is to be built, and building it (glTF 2.0, section 3.7.2).
 
 use gltf::json;
 use json::mesh::{Mode, Semantic};
@@ -9,21 +6,38 @@ use json::validation::Checked;
 
 use super::super::TextureSlot;
 use super::super::mesh::{Mesh, PLAIN_VERTEX};
-use super::accessor::Accessor;
+use super::attributes::{Attributes, Wanted};
 use super::document::Document;
-use super::material::{Materials, UvSets};
-use super::nodes::Placed;
+use super::extensions::DRACO;
+use super::left_out::LeftOut;
+use super::material::Materials;
+use super::nodes::{Placed, Shape};
+use super::topology::topology;
 use crate::Result;
 
+/// Bytes that a corner of a triangle takes at most: a vertex of its own and its index.
+const CORNER_BYTES: u64 = 64;
+/// Bytes that a primitive takes besides, about.
+const PRIMITIVE_BYTES: u64 = 1024;
+/// Bytes that any file may become.
+const LEAST_BUDGET: u64 = 1 << 29;
+/// Bytes that one byte of the buffers may become: a strip of 16-bit indices makes 96 of one.
+const EXPANSION: u64 = 256;
+
 /// A primitive to build.
-pub(super) struct Job<'a> {
-    /// Into the document's meshes.
-    pub mesh: usize,
+pub(super) struct Job {
+    /// Into [`Placed::shapes`].
+    pub shape: usize,
     primitive: usize,
-    json: &'a json::mesh::Primitive,
+    json: json::mesh::Primitive,
     mode: Mode,
-    /// Into [`Materials::list`].
-    material: u32,
+}
+
+impl Job {
+    /// The material that the primitive names; checked.
+    pub fn material(&self) -> Option<json::Index<json::Material>> {
+        self.json.material
+    }
 }
 
 /// A built primitive.
@@ -33,206 +47,134 @@ pub(super) struct Built {
     pub lacks_uv: bool,
 }
 
-/// The primitives of all placed meshes, by mesh; points and lines are left out with a warning.
-pub(super) fn jobs<'a>(
-    document: &'a Document,
-    materials: &mut Materials,
-    placed: &Placed,
-) -> Result<Vec<Job<'a>>> {
-    let meshes: BTreeSet<usize> = placed.meshes.iter().map(|node| node.mesh).collect();
-    let mut jobs = Vec::new();
-    let mut skipped = 0;
-    for mesh in meshes {
-        for (primitive, json) in document.root.meshes[mesh].primitives.iter().enumerate() {
-            let mode = match json.mode {
-                Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) => mode,
-                _ => {
-                    skipped += 1;
-                    continue;
-                }
-            };
-            let material = match json.material {
-                None => materials.default_material(),
-                Some(material) => {
-                    let known = document.get(&document.root.materials, "materials", material);
-                    known
-                        .map_err(|m| document.error(format!("meshes[{mesh}].primitives[{primitive}] {m}")))?;
-                    material.value() as u32
-                }
-            };
-            jobs.push(Job { mesh, primitive, json, mode, material });
+/// The primitives of all shapes that can be drawn.
+pub(super) fn jobs(document: &Document, placed: &Placed, left_out: &mut LeftOut) -> Result<Vec<Job>> {
+    let mut planner = Planner { document, left_out, jobs: Vec::new(), bytes: 0 };
+    for (number, shape) in placed.shapes.iter().enumerate() {
+        let of_mesh = |message: String| document.error(format!("meshes[{}]{message}", shape.mesh.value()));
+        let mesh = document.get(shape.mesh).map_err(|m| document.error(format!("a node {m}")))?;
+        for (primitive, json) in mesh.primitives.into_iter().enumerate() {
+            let job = Job { shape: number, primitive, json, mode: Mode::Triangles };
+            planner.add(job).map_err(|m| of_mesh(format!(".primitives[{primitive}] {m}")))?;
         }
     }
-    if skipped > 0 {
-        tracing::warn!("{}: {skipped} primitives of points or lines are left out", document.path.display());
+    Ok(planner.jobs)
+}
+
+struct Planner<'a> {
+    document: &'a Document,
+    left_out: &'a mut LeftOut,
+    jobs: Vec<Job>,
+    /// That the jobs will take, at most.
+    bytes: u64,
+}
+
+impl Planner<'_> {
+    /// Adds a primitive, unless it is left out.
+    fn add(&mut self, job: Job) -> Result<(), String> {
+        let Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) =
+            job.json.mode
+        else {
+            self.left_out.add("primitives of points or lines left out", 1);
+            return Ok(());
+        };
+        if let Some(kind) = self.without_data(&job.json)? {
+            self.left_out.add(kind, 1);
+            return Ok(());
+        }
+        if let Some(material) = job.json.material {
+            self.document.value(material)?;
+        }
+        self.bytes = self.bytes.saturating_add(self.size(&job.json, mode)?);
+        if self.bytes > LEAST_BUDGET + EXPANSION * self.document.buffer_bytes() {
+            return Err("brings the scene to more vertices than its buffers account for".into());
+        }
+        self.jobs.push(Job { mode, ..job });
+        Ok(())
     }
-    Ok(jobs)
+
+    /// Why a primitive cannot be drawn for want of data, if so.
+    fn without_data(&self, json: &json::mesh::Primitive) -> Result<Option<&'static str>, String> {
+        let Some(&positions) = json.attributes.get(&Checked::Valid(Semantic::Positions)) else {
+            return Ok(Some("primitives without positions left out"));
+        };
+        let compressed = json.extensions.as_ref().is_some_and(|e| e.others.contains_key(DRACO));
+        if compressed {
+            for &accessor in json.attributes.values().chain(&json.indices) {
+                if !self.has_data(accessor)? {
+                    return Ok(Some(
+                        "primitives compressed with Draco (KHR_draco_mesh_compression) left out",
+                    ));
+                }
+            }
+        }
+        // Without a buffer view all positions are zero (glTF 2.0, section 3.6.2.1): there is nothing to see.
+        let seen = self.has_data(positions)?;
+        Ok((!seen).then_some("primitives whose positions have no data (no bufferView) left out"))
+    }
+
+    fn has_data(&self, index: json::Index<json::Accessor>) -> Result<bool, String> {
+        let accessor = self.document.value(index)?;
+        let given = |field: &str| accessor.get(field).is_some_and(|value| !value.is_null());
+        Ok(given("bufferView") || given("sparse"))
+    }
+
+    /// Bytes that a primitive takes at most.
+    fn size(&self, json: &json::mesh::Primitive, mode: Mode) -> Result<u64, String> {
+        let positions = json.attributes[&Checked::Valid(Semantic::Positions)];
+        let listed = self.document.get(json.indices.unwrap_or(positions))?.count.0;
+        let corners = if mode == Mode::Triangles { listed } else { listed.saturating_mul(3) };
+        Ok(corners.saturating_mul(CORNER_BYTES).saturating_add(PRIMITIVE_BYTES))
+    }
 }
 
 /// Builds primitives.
 pub(super) struct Builder<'a> {
     pub document: &'a Document,
     pub materials: &'a Materials,
+    pub placed: &'a Placed,
 }
 
 impl Builder<'_> {
     /// Vertices and triangles of one primitive.
     pub fn build(&self, job: &Job) -> Result<Built> {
-        self.checked(job).map_err(|message| {
-            let name = self.document.root.meshes[job.mesh].name.as_deref().unwrap_or_default();
-            self.document
-                .error(format!("meshes[{}].primitives[{}] ({name}): {message}", job.mesh, job.primitive))
+        let shape = &self.placed.shapes[job.shape];
+        self.checked(job, shape).map_err(|message| {
+            let (mesh, primitive) = (shape.mesh.value(), job.primitive);
+            let name = self.document.value(shape.mesh).ok().and_then(|mesh| mesh.get("name")?.as_str());
+            let name = name.unwrap_or_default();
+            self.document.error(format!("meshes[{mesh}].primitives[{primitive}] ({name}): {message}"))
         })
     }
 
-    fn checked(&self, job: &Job) -> Result<Built, String> {
-        let positions = self.attribute(job, Semantic::Positions)?.ok_or("has no POSITION")?;
-        positions.expect_lanes(3)?;
-        let (range, indices) = self.topology(job, positions.count)?;
-        let mut mesh = Mesh { vertices: vec![PLAIN_VERTEX; range.len()], indices, material: job.material };
-        positions.floats(range.clone(), |i, position| mesh.vertices[i].position = position);
-        if let Some(vertex) = mesh.first_bad_position() {
-            return Err(format!("POSITION of vertex {} is not finite", range.start + vertex));
+    fn checked(&self, job: &Job, shape: &Shape) -> Result<Built, String> {
+        let attributes = Attributes { document: self.document, json: &job.json, weights: &shape.weights };
+        let positions = attributes.find(Semantic::Positions)?.ok_or("has no POSITION")?;
+        let (range, indices) = topology(self.document, job.json.indices, (job.mode, positions.count))?;
+        let wanted = Wanted { count: positions.count, range };
+        let material = self.materials.place(job.material());
+        let mut mesh = Mesh { vertices: vec![PLAIN_VERTEX; wanted.range.len()], indices, material };
+        attributes.read_positions(&positions, &wanted, &mut mesh)?;
+        let sets = &self.materials.uv_sets[material as usize];
+        let lacks_uv = attributes.read_uvs(&wanted, sets, &mut mesh)?;
+        attributes.read_colors(&wanted, &mut mesh)?;
+        let normals = attributes.read_normals(&wanted, &mut mesh)?;
+        // Where normals are missing, given tangents are to be ignored; where no normal map asks, they are not read.
+        let normal_map = self.materials.list[material as usize].textures[TextureSlot::Normal as usize];
+        let tangents = normals && normal_map.is_some() && attributes.read_tangents(&wanted, &mut mesh)?;
+        if let Some(skin) = shape.skin {
+            self.placed.skins[&skin].deform(&mut mesh, &attributes.influences(&wanted)?)?;
         }
-        let lacks_uv =
-            self.read_uvs(job, &mut mesh, range.clone(), &self.materials.uv_sets[job.material as usize])?;
-        self.read_colors(job, &mut mesh, range.clone())?;
-        self.read_frame(job, &mut mesh, range)?;
-        Ok(Built { mesh, lacks_uv })
-    }
-
-    fn attribute(&self, job: &Job, semantic: Semantic) -> Result<Option<Accessor<'_>>, String> {
-        let name = semantic.to_string();
-        let index = job.json.attributes.get(&Checked::Valid(semantic));
-        let accessor = index.map(|&index| Accessor::new(self.document, index)).transpose();
-        accessor.map_err(|message| format!("{name}: {message}"))
-    }
-
-    /// The vertices in use and the triangles between them, counted from the first in use: primitives that
-    /// share one large accessor take only their part of it.
-    fn topology(&self, job: &Job, count: usize) -> Result<(Range<usize>, Vec<u32>), String> {
-        let listed = match job.json.indices {
-            Some(index) => Accessor::new(self.document, index).and_then(|accessor| accessor.indices()),
-            None => {
-                u32::try_from(count).map(|count| (0..count).collect()).map_err(|_| "too many vertices".into())
-            }
-        };
-        let mut indices = triangles(job.mode, listed.map_err(|message| format!("indices: {message}"))?)?;
-        let (Some(&first), Some(&last)) = (indices.iter().min(), indices.iter().max()) else {
-            return Ok((0..0, indices));
-        };
-        if last as usize >= count {
-            return Err(format!("indices: use vertex {last} of {count}"));
-        }
-        indices.iter_mut().for_each(|index| *index -= first);
-        Ok((first as usize..last as usize + 1, indices))
-    }
-
-    fn read_uvs(
-        &self,
-        job: &Job,
-        mesh: &mut Mesh,
-        range: Range<usize>,
-        sets: &UvSets,
-    ) -> Result<bool, String> {
-        let mut lacks = false;
-        for (slot, set) in sets.iter().enumerate() {
-            let Some(set) = *set else { continue };
-            let Some(uvs) = self.attribute(job, Semantic::TexCoords(set))? else {
-                lacks = true;
-                continue;
-            };
-            uvs.expect_lanes(2)?;
-            self.expect_all(job, &uvs)?;
-            uvs.floats(range.clone(), |i, uv: [f32; 2]| {
-                mesh.vertices[i].uv[slot] = uv.map(|x| if x.is_finite() { x } else { 0.0 });
-            });
-        }
-        Ok(lacks)
-    }
-
-    fn read_colors(&self, job: &Job, mesh: &mut Mesh, range: Range<usize>) -> Result<(), String> {
-        let Some(colors) = self.attribute(job, Semantic::Colors(0))? else { return Ok(()) };
-        self.expect_all(job, &colors)?;
-        let colors = colors.always_normalized();
-        let unorm = |x: f32| (x.clamp(0.0, 1.0) * 255.0).round() as u8;
-        if colors.lanes == 4 {
-            colors.floats(range, |i, rgba: [f32; 4]| mesh.vertices[i].color = rgba.map(unorm));
+        if normals {
+            mesh.normalize_normals();
         } else {
-            colors.expect_lanes(3)?;
-            colors.floats(range, |i, [r, g, b]: [f32; 3]| {
-                mesh.vertices[i].color = [unorm(r), unorm(g), unorm(b), 255];
-            });
+            mesh.flatten_normals();
         }
-        Ok(())
-    }
-
-    /// Normals and tangents; those that are missing or have no direction are made.
-    fn read_frame(&self, job: &Job, mesh: &mut Mesh, range: Range<usize>) -> Result<(), String> {
-        let material = &self.materials.list[mesh.material as usize];
-        let normal_map = material.textures[TextureSlot::Normal as usize];
-        let normals = self.attribute(job, Semantic::Normals)?.map(Accessor::always_normalized);
-        match &normals {
-            Some(normals) => {
-                normals.expect_lanes(3)?;
-                self.expect_all(job, normals)?;
-                normals.floats(range.clone(), |i, normal| mesh.vertices[i].normal = normal);
-                mesh.normalize_normals();
-            }
-            None => mesh.flatten_normals(),
+        match normal_map {
+            Some(_) if tangents => mesh.mend_tangents(),
+            Some(normal_map) => mesh.generate_tangents(&normal_map),
+            None => mesh.set_any_tangents(),
         }
-        let Some(normal_map) = normal_map else {
-            mesh.set_any_tangents();
-            return Ok(());
-        };
-        // Where normals are missing, given tangents are to be ignored.
-        let tangents = self.attribute(job, Semantic::Tangents)?.filter(|_| normals.is_some());
-        let Some(tangents) = tangents else {
-            mesh.generate_tangents(&normal_map);
-            return Ok(());
-        };
-        tangents.expect_lanes(4)?;
-        self.expect_all(job, &tangents)?;
-        tangents.always_normalized().floats(range, |i, tangent| mesh.vertices[i].tangent = tangent);
-        mesh.mend_tangents();
-        Ok(())
-    }
-
-    fn expect_all(&self, job: &Job, accessor: &Accessor) -> Result<(), String> {
-        let positions = job.json.attributes.get(&Checked::Valid(Semantic::Positions));
-        let count = positions.and_then(|&index| self.document.root.accessors.get(index.value()));
-        accessor.expect_count(count.map_or(0, |positions| positions.count.0 as usize))
-    }
-}
-
-/// The triangle list of any topology of triangles (glTF 2.0, section 3.7.2.1); a strip's stitches are dropped.
-fn triangles(mode: Mode, indices: Vec<u32>) -> Result<Vec<u32>, String> {
-    let list: Vec<[u32; 3]> = match mode {
-        Mode::TriangleStrip => indices
-            .windows(3)
-            .enumerate()
-            .map(|(i, v)| if i % 2 == 0 { [v[0], v[1], v[2]] } else { [v[0], v[2], v[1]] })
-            .collect(),
-        Mode::TriangleFan => indices.windows(2).skip(1).map(|v| [v[0], v[1], indices[0]]).collect(),
-        _ if !indices.len().is_multiple_of(3) => {
-            return Err(format!("has {} indices, which do not make whole triangles", indices.len()));
-        }
-        _ => return Ok(indices),
-    };
-    Ok(list.into_iter().filter(|[a, b, c]| a != b && b != c && c != a).flatten().collect())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn strips_and_fans_keep_their_winding() {
-        let strip = triangles(Mode::TriangleStrip, vec![0, 1, 2, 3, 3, 4, 4]).unwrap();
-        assert_eq!(strip, [0, 1, 2, 1, 3, 2]);
-        let fan = triangles(Mode::TriangleFan, vec![7, 1, 2, 3]).unwrap();
-        assert_eq!(fan, [1, 2, 7, 2, 3, 7]);
-        assert!(triangles(Mode::TriangleFan, vec![7]).unwrap().is_empty());
-        assert!(triangles(Mode::Triangles, vec![0, 1]).unwrap_err().contains("2 indices"));
+        Ok(Built { mesh, lacks_uv })
     }
 }

@@ -113,6 +113,7 @@ impl Builder {
             materials: surfaces.iter().map(|surface| material(*surface, &sets)).collect(),
             images,
             lights: Vec::new(),
+            warnings: Vec::new(),
         }
     }
 }
@@ -182,6 +183,7 @@ fn material(surface: Surface, sets: &BTreeMap<Pattern, ImageSet>) -> Material {
         // Low, so that cut-outs keep their coverage in the averaged alpha of the coarse mips.
         alpha_cutoff: if look.alpha == AlphaMode::Mask { 0.35 } else { 0.5 },
         double_sided: look.double_sided,
+        unlit: false,
         textures,
     }
 }

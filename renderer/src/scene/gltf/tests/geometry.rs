@@ -50,11 +50,14 @@ fn without_a_default_scene_the_first_or_the_orphans_are_drawn() {
 #[test]
 fn mirrored_and_flattened_nodes() {
     let mut asset = Asset::triangle();
-    asset.json["scenes"] = json!([{ "nodes": [0, 1] }]);
-    asset.json["nodes"] = json!([{ "mesh": 0, "scale": [-1, 1, 1] }, { "mesh": 0, "scale": [0, 1, 1] }]);
+    asset.json["scenes"] = json!([{ "nodes": [0, 1, 2, 3, 4] }]);
+    let scaled = |scale: [f64; 3]| json!({ "mesh": 0, "scale": scale });
+    let scales = [[-1.0, 1.0, 1.0], [0.0, 1.0, 1.0], [1.0, 0.0, 0.0], [0.0; 3], [1e-25, 1e-25, 1.0]];
+    asset.json["nodes"] = json!(scales.map(scaled));
     let scene = asset.load().unwrap();
-    assert_eq!(scene.instances.len(), 1);
-    assert_eq!(scene.instances[0].world_from_object.determinant(), -1.0);
+    let kept: Vec<_> = scene.instances.iter().map(|i| i.world_from_object.determinant()).collect();
+    assert_eq!(kept, [-1.0, 0.0], "flat along one axis is still a surface");
+    assert_eq!(scene.warnings, ["nodes scaled to nothing and left out: 3"]);
 }
 
 #[test]

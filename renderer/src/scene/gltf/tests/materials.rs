@@ -59,6 +59,7 @@ fn all_factors_and_five_textures() {
         alpha_mode: AlphaMode::Mask,
         alpha_cutoff: 0.25,
         double_sided: true,
+        unlit: false,
         textures: [None; 5],
     };
     assert_eq!(plain, expected);
@@ -73,6 +74,39 @@ fn all_factors_and_five_textures() {
     for (slot, texel, srgb) in slots {
         assert_eq!((image(slot).mips[0][0], image(slot).srgb), (texel, srgb), "{slot:?}");
     }
+}
+
+#[test]
+fn unlit_materials_and_those_of_specular_and_glossiness() {
+    let mut asset = textured(2);
+    asset.json["extensionsRequired"] = json!(["KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness"]);
+    asset.material(json!({ "extensions": { "KHR_materials_unlit": {} } }));
+    assert!(only_material(&asset).unlit);
+
+    let gloss = json!({
+        "diffuseFactor": [0.1, 0.2, 0.3, 0.4], "diffuseTexture": { "index": 1, "texCoord": 3 },
+        "specularFactor": [1, 0, 0], "glossinessFactor": 0.75, "specularGlossinessTexture": { "index": 9 }
+    });
+    asset.material(json!({ "extensions": { "KHR_materials_pbrSpecularGlossiness": gloss } }));
+    let scene = asset.load().unwrap();
+    let material = &scene.materials[0];
+    assert_eq!(
+        (material.base_color, material.metallic, material.roughness),
+        ([0.1, 0.2, 0.3, 0.4], 0.0, 0.25)
+    );
+    assert_eq!((scene.images[0].mips[0][0], scene.vertices[0].uv[0]), (1, [3.0; 2]));
+    let warning =
+        "materials of specular and glossiness, drawn with their diffuse colour and gloss factor alone: 1";
+    assert_eq!(scene.warnings, [warning]);
+
+    asset.json["materials"][0]["pbrMetallicRoughness"] = json!({ "roughnessFactor": 0.5 });
+    let scene = asset.load().unwrap();
+    let material = &scene.materials[0];
+    assert_eq!((material.base_color, material.metallic, material.roughness), ([1.0; 4], 1.0, 0.5));
+    assert_eq!(
+        scene.warnings,
+        ["materials of specular and glossiness, drawn by their metallic-roughness values: 1"]
+    );
 }
 
 #[test]

@@ -1,8 +1,11 @@
 //! Files made on the spot.
 
 mod broken;
+mod compressed;
 mod geometry;
+mod lenient;
 mod materials;
+mod posed;
 
 use std::fs;
 use std::path::{Path, PathBuf};
