@@ -391,12 +391,22 @@ fn a_still_is_written_as_png_and_exr() {
     for extension in ["png", "exr"] {
         assert!(out.path().join(format!("000300_encl-ortho-4_birdseye.{extension}")).is_file());
     }
+    succeed(&mut still(&["--eye", "-9,1.8,9", "--target", "-4,3,-8", "--fov", "1.4", "--validate"]));
+    assert!(out.path().join("000300_encl-ortho-4_eye.png").is_file());
     for (args, expected) in [
         (&["--runs", "2"][..], "--runs"),
         (&["--view", "above"], "birdseye"),
         (&["--show", "clusters,light-count"], "exclude each other"),
         (&["--method", "indi-persp-64"], "once"),
         (&["--frame", "9000"], "reach beyond"),
+        (&["--eye", "1,2,3"], "--target"),
+        (&["--target", "1,2,3"], "--eye"),
+        (&["--fov", "1"], "--eye"),
+        (&["--eye", "1,2", "--target", "0,0,0"], "no place X,Y,Z"),
+        (&["--eye", "-1,2,-3", "--target", "-1,2,-3"], "target: it is where the eye is"),
+        (&["--eye", "1,inf,3", "--target", "0,0,0"], "eye: 1,inf,3 is not within"),
+        (&["--eye", "1,2,3", "--target", "0,0,0", "--fov", "-1"], "radians"),
+        (&["--eye", "1,2,3", "--target", "0,0,0", "--view", "mono"], "cannot be used with"),
     ] {
         let message = refused(&mut still(args));
         assert!(message.contains(expected), "{message}");

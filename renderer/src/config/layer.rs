@@ -12,7 +12,7 @@ use serde::Deserialize;
 use std::path::PathBuf;
 
 /// What one source says of a [`Config`]. The same declaration is the JSON file, its schema and the flags,
-/// so that every field is a flag and every flag a field.
+/// so that every field is a flag.
 #[derive(Debug, Clone, Default, PartialEq, clap::Args, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(

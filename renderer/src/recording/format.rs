@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
 /// Largest magnitude of a coordinate, metres: beyond it single precision is coarser than 0.1 m.
-pub(super) const MAX_COORDINATE: f64 = 1e6;
+pub(crate) const MAX_COORDINATE: f64 = 1e6;
 
 /// How far a quaternion's length may be from 1.
 const UNIT_TOLERANCE: f64 = 1e-6;

@@ -43,6 +43,7 @@ mod json;
 mod write;
 
 pub use bake::bake;
+pub(crate) use format::MAX_COORDINATE;
 pub use format::{Eye, EyeRow, Format, Frame, Hmd, RecordingFile, Source};
 pub use import::{ImportOptions, import_bin};
 pub(crate) use json::{Check, Problem};
