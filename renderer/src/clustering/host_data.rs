@@ -28,7 +28,7 @@ pub fn grid_data(grid: &Grid, lights: u32, sizes: &ClusteringSizes) -> GridData 
             (min, (max - min) / dimensions, min.abs().max(max.abs()).max_element())
         }
     };
-    let (low, high) = bounds(grid);
+    let (low, high) = grid.bounds();
     GridData {
         clustering_from_world: rigid_inverse(&grid.pose),
         dimensions: grid.dimensions,
@@ -49,18 +49,6 @@ pub fn grid_data(grid: &Grid, lights: u32, sizes: &ClusteringSizes) -> GridData 
         bounds_low: low.as_vec3().to_array(),
         bounds_scale: (1024.0 / (high - low)).as_vec3().to_array(),
     }
-}
-
-/// Lowest and highest corner of a grid in clustering space.
-fn bounds(grid: &Grid) -> (glam::DVec3, glam::DVec3) {
-    let last = grid.dimensions.map(|count| count - 1);
-    let (mut low, mut high) = (glam::DVec3::INFINITY, glam::DVec3::NEG_INFINITY);
-    for corner in 0..8 {
-        let cell = std::array::from_fn(|axis| if corner >> axis & 1 == 1 { last[axis] } else { 0 });
-        let (cell_low, cell_high) = grid.cell_bounds(cell);
-        (low, high) = (low.min(cell_low), high.max(cell_high));
-    }
-    (low, high)
 }
 
 /// What the lookup over all lights reads: no grid, every light.

@@ -159,6 +159,7 @@ impl Bench {
 
 mod assign_equality;
 mod cull;
+mod list_twins;
 mod sphere_tests;
 
 /// A small deterministic generator; quality does not matter here.
