@@ -129,6 +129,35 @@ fn where_the_frame_alone_is_timed_no_stage_has_a_time() {
 }
 
 #[test]
+fn a_mirror_beside_eyes_is_replayed_and_no_frustum_encloses_both() {
+    let directory = tempfile::tempdir().unwrap();
+    let replay = |method| {
+        let mut command = manylight();
+        command.args([
+            "replay",
+            "--quiet",
+            "--validate",
+            "--resolution",
+            "64x40",
+            "--frames",
+            "300",
+            "--lights",
+            "200",
+        ]);
+        command.args(["--recording", "bistro-mirror", "--runs", "1", "--method", method]);
+        command.arg("--out").arg(directory.path());
+        command
+    };
+    for method in ["encl-ortho-4", "indi-persp-64"] {
+        succeed(&mut replay(method));
+    }
+    for method in ["encl-persp-64", "encl-displ-64-32"] {
+        let message = refused(&mut replay(method));
+        assert!(message.contains(method) && message.contains("encl-ortho-4"), "{message}");
+    }
+}
+
+#[test]
 fn a_display_of_many_eyes_is_replayed() {
     let directory = tempfile::tempdir().unwrap();
     let bundled = Path::new(env!("CARGO_MANIFEST_DIR")).join("../recordings/bistro-vive.json");
@@ -302,6 +331,21 @@ fn recordings_are_imported_and_baked_and_flown() {
     succeed(manylight().arg("import-recording").arg(source).args(["--hmd", "vive", "--out"]).arg(&imported));
     let bundled = Path::new(env!("CARGO_MANIFEST_DIR")).join("../recordings/bistro-vive.json");
     assert_eq!(read(&imported), read(bundled));
+    let mirrored = |plane| {
+        let mut command = manylight();
+        command
+            .arg("import-recording")
+            .arg(manylight_tests::data("replay_bistro.bin"))
+            .arg("--out")
+            .arg(&imported);
+        command.args(["--hmd", "vive", "--mirror", plane]);
+        command
+    };
+    succeed(&mut mirrored("0,2,0,0.04"));
+    let bundled = Path::new(env!("CARGO_MANIFEST_DIR")).join("../recordings/bistro-mirror.json");
+    assert_eq!(read(&imported), read(bundled));
+    assert!(refused(&mut mirrored("0,0,0,1")).contains("has no direction"));
+    assert!(refused(&mut mirrored("0,-1,0")).contains("no plane NX,NY,NZ,D"));
 
     let waypoints = directory.path().join("waypoints.json");
     fs::write(

@@ -6,6 +6,7 @@ use crate::culling::ViewPlanes;
 use crate::geometry::{ClusterSpace, Grid};
 use crate::gpu_interface::{GridData, ViewData};
 use crate::views::{Pose, View};
+use glam::DVec4;
 
 /// Rounding of positions and planes in f32 stays below this fraction of the far distance, or of the radius where that is
 /// larger (measured: see the tests of the CPU twin), so radii grown by it never lose a light.
@@ -30,7 +31,7 @@ pub fn grid_data(grid: &Grid, lights: u32, sizes: &ClusteringSizes) -> GridData 
     };
     let (low, high) = grid.bounds();
     GridData {
-        clustering_from_world: rigid_inverse(&grid.pose),
+        clustering_from_world: inverse(&grid.pose),
         dimensions: grid.dimensions,
         word_count: grid.cluster_count().div_ceil(32) as u32,
         origin: origin.as_vec3().to_array(),
@@ -56,7 +57,7 @@ pub fn gridless_data(lights: u32) -> GridData {
     GridData { light_count: lights, ..bytemuck::Zeroable::zeroed() }
 }
 
-fn rigid_inverse(pose: &Pose) -> [[f32; 4]; 4] {
+fn inverse(pose: &Pose) -> [[f32; 4]; 4] {
     pose.inverse().to_matrix().as_mat4().to_cols_array_2d()
 }
 
@@ -78,5 +79,7 @@ pub fn view_data(view: &View, grid: Option<&Grid>, resolution: [u32; 2], reach: 
         near: -f.z1 as f32,
         far: -f.z0 as f32,
         planes: ViewPlanes::new(view).for_device(reach),
+        clip_plane: view.pose.mirror.map_or(DVec4::W, |mirror| mirror.plane()).as_vec4().to_array(),
+        mirrored: u32::from(view.pose.mirror.is_some()),
     }
 }

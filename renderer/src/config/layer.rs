@@ -31,7 +31,7 @@ pub struct Layer {
     #[schemars(length(min = 1))]
     pub scene: Option<String>,
 
-    /// Recording: `bistro`, `suntem`, `bistro-vive`, `suntem-vive`, or the path of a JSON file.
+    /// Recording: `bistro`, `suntem`, `bistro-vive`, `bistro-mirror`, `suntem-vive`, or the path of a JSON file.
     #[arg(long, value_name = "NAME|PATH")]
     #[serde(default, deserialize_with = "de::text")]
     #[schemars(length(min = 1))]

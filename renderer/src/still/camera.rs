@@ -138,10 +138,11 @@ const FOV: f64 = 1.2;
 pub fn birdseye(views: &[View], resolution: [u32; 2], reach: f64) -> Result<View> {
     let head = head_space(views);
     let far = views.iter().map(|view| view.frustum.far()).fold(reach, f64::max);
-    let ahead = level(head.rotation * DVec3::NEG_Z);
+    let ahead = level(head.transform_vector(DVec3::NEG_Z));
     let right = ahead.cross(DVec3::Y);
-    let position = head.position + reach * (PLACE.x * right + PLACE.y * DVec3::Y - PLACE.z * ahead);
-    let target = head.position + reach * TARGET * ahead;
+    let head = head.transform_point(DVec3::ZERO);
+    let position = head + reach * (PLACE.x * right + PLACE.y * DVec3::Y - PLACE.z * ahead);
+    let target = head + reach * TARGET * ahead;
     let frustum = Frustum::from_fov(FOV, resolution, 0.01 * reach, 4.0 * far)?;
     Ok(View { pose: looking_at(position, target), frustum })
 }
@@ -175,7 +176,7 @@ fn looking_at(position: DVec3, target: DVec3) -> Pose {
     // Exactly at right angles, where the fallback's right was not.
     let right = back.cross(right).normalize().cross(back);
     let rotation = DQuat::from_mat3(&DMat3::from_cols(right, back.cross(right), back));
-    Pose { position, rotation: rotation.normalize() }
+    Pose { position, rotation: rotation.normalize(), mirror: None }
 }
 
 #[cfg(test)]
@@ -187,6 +188,7 @@ mod tests {
             pose: Pose {
                 position: DVec3::new(3.0, 1.7, -20.0),
                 rotation: DQuat::from_rotation_y(yaw) * DQuat::from_rotation_x(pitch),
+                mirror: None,
             },
             frustum: Frustum { x0: -1.0, x1: 1.0, y0: -0.6, y1: 0.6, z0: -100.0, z1: -0.4 },
         }

@@ -151,7 +151,7 @@ pub fn render(
     let plan = &plans[0];
     let names = inputs.recording.view_names();
     let camera = Camera::new(viewpoint, &names)?;
-    let mut session = Session::new(config, &inputs.scene, names.len())?;
+    let mut session = Session::new(config, &inputs.scene, inputs.recording.view_set())?;
     let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
     let onlooker = Onlooker { config, names: &names, plan, camera, show: *show };
     let still = paint(&onlooker, inputs, &mut session, run)?;

@@ -97,6 +97,7 @@ impl<'a> Onlooker<'a> {
             Camera::View(view) => (view, 0, vec![if all.len() > 1 { view } else { 0 }]),
             Camera::BirdsEye | Camera::Placed(_) => {
                 let slot = &mut session.slots[SLOT];
+                slot.mirrored[0] = false;
                 slot.views.write(0, &[view_data(eye, None, self.config.resolution, session.reach)]);
                 slot.draw_lists[0].update(&session.batches, std::slice::from_ref(eye));
                 (0, 1, all)
