@@ -28,7 +28,7 @@ float table_attenuation(LightData light, float d)
     case ATTENUATION_PHY_SMO_1: return inverse_square + light.cutoff * x * (2.0 * x - 3.0);
     case ATTENUATION_PHY_SMO_2: return inverse_square + light.cutoff * x * x * (2.0 * x - 3.0);
     case ATTENUATION_LIN: return light.intensity * (1.0 - x);
-    default: return 4.0 * light.intensity / (light.r1 * light.r1);
+    default: return light.intensity;
     }
 }
 

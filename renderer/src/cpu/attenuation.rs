@@ -23,7 +23,7 @@ pub fn attenuation(function: Attenuation, light: &PointLight, distance: f64) -> 
         Attenuation::PhySmo1 => physical + 2.0 * i0 * part.powi(2) - 3.0 * i0 * part,
         Attenuation::PhySmo2 => physical + 2.0 * i0 * part.powi(3) - 3.0 * i0 * part.powi(2),
         Attenuation::Lin => i * (r1 - d) / r1,
-        Attenuation::Stp => 4.0 * i / (r1 * r1),
+        Attenuation::Stp => i,
     };
     value.max(0.0)
 }
@@ -42,7 +42,7 @@ mod tests {
     #[test]
     fn every_function_has_its_value_at_half_the_radius() {
         let values = ALL.map(|function| attenuation(function, &LIGHT, 2.0));
-        assert_eq!(values, [2.0, 1.5, 1.0, 1.75, 1.875, 1.5, 1.75, 4.0, 2.0]);
+        assert_eq!(values, [2.0, 1.5, 1.0, 1.75, 1.875, 1.5, 1.75, 4.0, 8.0]);
     }
 
     #[test]

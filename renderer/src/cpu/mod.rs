@@ -20,6 +20,7 @@
 
 mod assign;
 mod attenuation;
+mod brdf;
 mod compact;
 mod cull;
 mod cull_lights;
@@ -31,6 +32,7 @@ mod scatter;
 
 pub use assign::{LightLists, assign};
 pub use attenuation::attenuation;
+pub use brdf::{Surface, reflected};
 pub use compact::{Compacted, NOT_VISIBLE, compact};
 pub use cull::{Seen, cull};
 pub use cull_lights::{Blocks, Candidate, CellRange, Culled, cull_lights, mark_blocks};

@@ -28,7 +28,7 @@ pub enum Attenuation {
     PhySmo2,
     /// I*(R1-d)/R1.
     Lin,
-    /// 4*I/R1^2 for d < R1.
+    /// I for d < R1.
     Stp,
 }
 
