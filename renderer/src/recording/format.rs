@@ -207,7 +207,7 @@ impl Hmd {
     pub(super) fn check_rows(&self, frames: usize) -> Result<(), Problem> {
         for (index, eye) in self.eyes.iter().enumerate() {
             let rows = [("rows", eye.rows.len()), ("mirror", eye.mirror.len().max(1))];
-            for (field, rows) in rows.into_iter().filter(|&(_, rows)| rows != 1 && rows != frames) {
+            if let Some((field, rows)) = rows.into_iter().find(|&(_, rows)| rows != 1 && rows != frames) {
                 let message = format!("has {rows} rows; give 1, or {frames}, one a frame");
                 return Err(Problem::new(message).under(field).under(index).under("eyes"));
             }

@@ -161,7 +161,7 @@ fn the_hierarchy_equals_its_twin() {
 /// Checks keys and order, and gives the order: numbers of candidates.
 fn sorted_as_their_twin(culling: &mut Culling, spheres: &[[f32; 4]]) -> Vec<u32> {
     let twin = cpu::keys(&culling.grid, spheres, culling.lights, 0.02);
-    let half = (sort_passes(culling.lights) - 1 & 1) * culling.lights;
+    let half = ((sort_passes(culling.lights) - 1) & 1) * culling.lights;
     let words = culling.bench.download(|c| &c.buffers.sort_items, 2 * (half as usize + spheres.len()));
     let items: Vec<(u32, u32)> = words[2 * half as usize..].chunks_exact(2).map(|w| (w[0], w[1])).collect();
     let mut keys = vec![u32::MAX; spheres.len()];
