@@ -52,8 +52,8 @@ impl ViewPlanes {
             (DVec3::new(0.0, 0.0, 1.0), -f.z0),
         ];
         Self(local.map(|(normal, offset)| {
-            let world = view.pose.rotation * normal.normalize();
-            world.extend(offset - world.dot(view.pose.position))
+            let world = view.pose.transform_vector(normal.normalize());
+            world.extend(offset - world.dot(view.eye()))
         }))
     }
 
@@ -86,12 +86,16 @@ impl ViewPlanes {
 mod tests {
     use super::*;
     use crate::geometry::Frustum;
-    use crate::views::Pose;
+    use crate::views::{Mirror, Pose};
     use glam::DQuat;
 
     fn view() -> View {
         let frustum = Frustum { x0: -1.0, x1: 0.5, y0: -0.8, y1: 0.6, z0: -50.0, z1: -0.5 };
-        let pose = Pose { position: DVec3::new(30.0, 2.0, -80.0), rotation: DQuat::from_rotation_y(0.9) };
+        let pose = Pose {
+            position: DVec3::new(30.0, 2.0, -80.0),
+            rotation: DQuat::from_rotation_y(0.9),
+            mirror: None,
+        };
         View { pose, frustum }
     }
 
@@ -107,6 +111,20 @@ mod tests {
         let outside = [(-12.0, 0.0, -10.0), (7.0, 0.0, -10.0), (0.0, -10.0, -10.0), (0.0, 8.0, -10.0)];
         for place in outside.into_iter().chain([(0.0, 0.0, 1.0), (0.0, 0.0, -51.0)]) {
             assert!(!planes.may_see(&cube(place.into())), "{place:?}");
+        }
+    }
+
+    #[test]
+    fn a_mirror_shows_the_boxes_whose_images_are_seen() {
+        let mirror = Mirror { normal: DVec3::new(0.0, 0.6, 0.8), offset: -70.0 };
+        let planes = ViewPlanes::new(&View { pose: Pose { mirror: Some(mirror), ..view().pose }, ..view() });
+        for place in [(0.0, 0.0, -10.0), (0.0, 0.0, 1.0), (3.0, -2.0, -30.0), (7.0, 0.0, -10.0)] {
+            let direct = cube(place.into());
+            // A cube of no size: its image is one too.
+            let direct = WorldBox { half_extent: DVec3::ZERO, ..direct };
+            let image = WorldBox { center: mirror.reflect_point(direct.center), ..direct };
+            let depths = (planes.depth(&image), ViewPlanes::new(&view()).depth(&direct));
+            assert!((depths.0 - depths.1).abs() < 1e-9, "{depths:?}");
         }
     }
 

@@ -157,7 +157,7 @@ impl DrawList {
                 SurfaceKind::Opaque => append(&mut self.opaque, run),
                 SurfaceKind::Masked => append(&mut self.masked, run),
                 SurfaceKind::Transparent => {
-                    let distance = bounds.center.distance_squared(views[0].pose.position);
+                    let distance = bounds.center.distance_squared(views[0].eye());
                     self.far_to_near.push((distance, instance as u32));
                 }
             }

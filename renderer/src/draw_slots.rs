@@ -103,7 +103,7 @@ impl SlotOrder {
     /// Sorts the transparent slots for `view`.
     pub fn update(&mut self, slots: &DrawSlots, view: &View) {
         let surfaces = slots.counts.surfaces;
-        let distance = |center: &DVec3| center.distance_squared(view.pose.position);
+        let distance = |center: &DVec3| center.distance_squared(view.eye());
         self.far_to_near.clear();
         self.far_to_near.extend(slots.centers.iter().map(distance).zip(surfaces..));
         sort_far_to_near(&mut self.far_to_near);
@@ -147,7 +147,11 @@ mod tests {
     use glam::DQuat;
 
     fn view() -> View {
-        let pose = Pose { position: DVec3::new(-4.0, 2.0, 3.0), rotation: DQuat::from_rotation_y(0.4) };
+        let pose = Pose {
+            position: DVec3::new(-4.0, 2.0, 3.0),
+            rotation: DQuat::from_rotation_y(0.4),
+            mirror: None,
+        };
         View { pose, frustum: Frustum::from_fov(1.3, [64, 32], 0.4, 100.0).unwrap() }
     }
 

@@ -112,6 +112,8 @@ pub struct Frame<'a> {
     pub draws: Draws<'a>,
     /// What each view is rendered into.
     pub targets: &'a [ViewTargets],
+    /// Of each view, whether it sees the world in a mirror.
+    pub mirrored: &'a [bool],
     /// The clusterings; for a method without, one that holds every view and no grid.
     pub clusterings: &'a [Clustering],
     /// Whether the clusterings have grids.
@@ -160,6 +162,14 @@ impl Frame<'_> {
         let at_once = self.multiview && self.clusterings.len() == 1;
         let passes = if at_once { 1 } else { self.targets.len() };
         (0..passes).map(move |view| if at_once { Eyes::All } else { Eyes::One(view) })
+    }
+
+    /// Whether a pass draws a view in a mirror, or, with `mirrored` false, one that is not.
+    pub fn any_mirrored(&self, eyes: Eyes, mirrored: bool) -> bool {
+        match eyes {
+            Eyes::One(view) => self.mirrored[view] == mirrored,
+            Eyes::All => self.mirrored.contains(&mirrored),
+        }
     }
 
     /// How many views a pass draws.

@@ -19,6 +19,7 @@ use crate::draw_list::SurfaceKind;
 use crate::layouts::Layouts;
 use crate::methods::MethodSpec;
 use crate::scene::Vertex;
+use crate::views::ViewSet;
 use crate::vk::{self as gpu, Context, GraphicsDesc, Pipeline, ShaderLibrary};
 use ash::vk;
 use std::collections::BTreeMap;
@@ -135,7 +136,7 @@ pub struct PipelineStore {
     context: Arc<Context>,
     layouts: Arc<Layouts>,
     shaders: ShaderLibrary,
-    views: usize,
+    views: ViewSet,
     made: BTreeMap<String, Arc<Pipeline>>,
 }
 
@@ -153,8 +154,13 @@ enum Output {
 }
 
 impl PipelineStore {
-    /// An empty store, for pipelines that draw `views` views.
-    pub fn new(context: &Arc<Context>, layouts: &Arc<Layouts>, shaders: ShaderLibrary, views: usize) -> Self {
+    /// An empty store, for pipelines that draw `views`.
+    pub fn new(
+        context: &Arc<Context>,
+        layouts: &Arc<Layouts>,
+        shaders: ShaderLibrary,
+        views: ViewSet,
+    ) -> Self {
         Self { context: context.clone(), layouts: layouts.clone(), shaders, views, made: BTreeMap::new() }
     }
 
@@ -277,9 +283,11 @@ impl PipelineStore {
         fragment: Option<&str>,
         output: Output,
     ) -> Result<Arc<Pipeline>> {
-        let at_once = self.views > 1 && variant.draws_all_views(output);
-        let views = if at_once { self.views } else { 0 };
-        let defines = graphics_defines(variant, fragment.is_some(), output).with("VIEWS", views);
+        let at_once = self.views.count > 1 && variant.draws_all_views(output);
+        let views = if at_once { self.views.count } else { 0 };
+        let defines = graphics_defines(variant, fragment.is_some(), output)
+            .with("VIEWS", views)
+            .with("MIRRORS", u32::from(self.views.mirrors));
         let key = format!("{fragment:?} {output:?} {:?} {defines:?}", variant.attenuation);
         if let Some(made) = self.made.get(&key) {
             return Ok(made.clone());

@@ -1,6 +1,7 @@
 // The influence volumes of the lights: an instance a light, a sphere of rings and segments each.
 #version 460
 #include "lib/light.glsl"
+#include "lib/mirror.glsl"
 
 layout(location = 0) out vec3 out_normal;
 layout(location = 1) out vec3 out_towards_camera;
@@ -23,4 +24,5 @@ void main()
     out_towards_camera = view.world_from_view[3].xyz - position;
     out_tint = light.tint;
     gl_Position = view.clip_from_world * vec4(position, 1.0);
+    clip_behind_mirror(push.view, position);
 }

@@ -5,7 +5,7 @@
 // VARYINGS: 0 position alone, 1 with texture coordinates and colour (alpha test), 2 with the tangent frame.
 #version 460
 #extension GL_ARB_shader_viewport_layer_array : require
-#include "generated/gpu_interface.glsl"
+#include "lib/mirror.glsl"
 
 layout(location = 0) in vec3 position;
 #if VARYINGS >= 1
@@ -58,6 +58,10 @@ void main()
     mat4 world_from_object = world_from_object_of(instance);
     vec4 world = world_from_object * vec4(position, 1.0);
     gl_Position = views[view].clip_from_world * world;
+    clip_behind_mirror(view, world.xyz);
+#if VIEWS
+    clip_other_handedness(view);
+#endif
 #if VARYINGS >= 1
     out_uv = vec4(uv0, uv1);
     out_color = color;

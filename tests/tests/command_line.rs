@@ -129,6 +129,35 @@ fn where_the_frame_alone_is_timed_no_stage_has_a_time() {
 }
 
 #[test]
+fn a_mirror_beside_eyes_is_replayed_and_no_frustum_encloses_both() {
+    let directory = tempfile::tempdir().unwrap();
+    let replay = |method| {
+        let mut command = manylight();
+        command.args([
+            "replay",
+            "--quiet",
+            "--validate",
+            "--resolution",
+            "64x40",
+            "--frames",
+            "300",
+            "--lights",
+            "200",
+        ]);
+        command.args(["--recording", "bistro-mirror", "--runs", "1", "--method", method]);
+        command.arg("--out").arg(directory.path());
+        command
+    };
+    for method in ["encl-ortho-4", "indi-persp-64"] {
+        succeed(&mut replay(method));
+    }
+    for method in ["encl-persp-64", "encl-displ-64-32"] {
+        let message = refused(&mut replay(method));
+        assert!(message.contains(method) && message.contains("encl-ortho-4"), "{message}");
+    }
+}
+
+#[test]
 fn a_display_of_many_eyes_is_replayed() {
     let directory = tempfile::tempdir().unwrap();
     let bundled = Path::new(env!("CARGO_MANIFEST_DIR")).join("../recordings/bistro-vive.json");
@@ -302,6 +331,21 @@ fn recordings_are_imported_and_baked_and_flown() {
     succeed(manylight().arg("import-recording").arg(source).args(["--hmd", "vive", "--out"]).arg(&imported));
     let bundled = Path::new(env!("CARGO_MANIFEST_DIR")).join("../recordings/bistro-vive.json");
     assert_eq!(read(&imported), read(bundled));
+    let mirrored = |plane| {
+        let mut command = manylight();
+        command
+            .arg("import-recording")
+            .arg(manylight_tests::data("replay_bistro.bin"))
+            .arg("--out")
+            .arg(&imported);
+        command.args(["--hmd", "vive", "--mirror", plane]);
+        command
+    };
+    succeed(&mut mirrored("0,2,0,0.04"));
+    let bundled = Path::new(env!("CARGO_MANIFEST_DIR")).join("../recordings/bistro-mirror.json");
+    assert_eq!(read(&imported), read(bundled));
+    assert!(refused(&mut mirrored("0,0,0,1")).contains("has no direction"));
+    assert!(refused(&mut mirrored("0,-1,0")).contains("no plane NX,NY,NZ,D"));
 
     let waypoints = directory.path().join("waypoints.json");
     fs::write(
@@ -391,12 +435,22 @@ fn a_still_is_written_as_png_and_exr() {
     for extension in ["png", "exr"] {
         assert!(out.path().join(format!("000300_encl-ortho-4_birdseye.{extension}")).is_file());
     }
+    succeed(&mut still(&["--eye", "-9,1.8,9", "--target", "-4,3,-8", "--fov", "1.4", "--validate"]));
+    assert!(out.path().join("000300_encl-ortho-4_eye.png").is_file());
     for (args, expected) in [
         (&["--runs", "2"][..], "--runs"),
         (&["--view", "above"], "birdseye"),
         (&["--show", "clusters,light-count"], "exclude each other"),
         (&["--method", "indi-persp-64"], "once"),
         (&["--frame", "9000"], "reach beyond"),
+        (&["--eye", "1,2,3"], "--target"),
+        (&["--target", "1,2,3"], "--eye"),
+        (&["--fov", "1"], "--eye"),
+        (&["--eye", "1,2", "--target", "0,0,0"], "no place X,Y,Z"),
+        (&["--eye", "-1,2,-3", "--target", "-1,2,-3"], "target: it is where the eye is"),
+        (&["--eye", "1,inf,3", "--target", "0,0,0"], "eye: 1,inf,3 is not within"),
+        (&["--eye", "1,2,3", "--target", "0,0,0", "--fov", "-1"], "radians"),
+        (&["--eye", "1,2,3", "--target", "0,0,0", "--view", "mono"], "cannot be used with"),
     ] {
         let message = refused(&mut still(args));
         assert!(message.contains(expected), "{message}");

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use manylight::config::{Config, ExrFrames, FrameRange, Lighting};
 use manylight::output::planned_runs;
 use manylight::replay::{FramePlan, Inputs, plan_frames};
-use manylight::still::{Item, Show, Still, render};
+use manylight::still::{Item, Placed, Show, Still, Viewpoint, render};
 use manylight_tests::run;
 
 const FRAME: u32 = 300;
@@ -23,8 +23,13 @@ fn config(recording: &str, method: &str) -> Config {
 }
 
 fn still(config: &Config, inputs: &Inputs, view: Option<&str>, items: &[Item]) -> Still {
+    seen_from(config, inputs, Viewpoint::Named(view), items)
+}
+
+fn seen_from(config: &Config, inputs: &Inputs, viewpoint: Viewpoint, items: &[Item]) -> Still {
     let show = Show::from_items(items).unwrap();
-    render(config, inputs, &planned_runs(config)[0], view, &show).unwrap_or_else(|error| panic!("{error}"))
+    render(config, inputs, &planned_runs(config)[0], viewpoint, &show)
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn plan(config: &Config, inputs: &Inputs) -> FramePlan {
@@ -132,7 +137,10 @@ fn what_cannot_be_shown_is_refused_before_the_device_is_asked() {
     let runs = planned_runs(&config);
     let refused = |view, items: &[Item]| {
         let show = Show::from_items(items).unwrap();
-        render(&config, &inputs, &runs[0], view, &show).err().map(|error| error.to_string()).unwrap()
+        render(&config, &inputs, &runs[0], Viewpoint::Named(view), &show)
+            .err()
+            .map(|error| error.to_string())
+            .unwrap()
     };
     assert!(refused(None, &[Item::Clusters]).contains("all-lights has no clusters"));
     assert!(refused(Some("left"), &[Item::Frusta]).contains("birdseye"));
@@ -151,4 +159,40 @@ fn a_replay_sees_from_above_what_a_still_sees_and_counts_as_if_nobody_looked() {
         let still = still(&alone, &inputs, Some("birdseye"), &[Item::Clusters, Item::Frusta]);
         assert_eq!(watched.birdseyes, [(FRAME, still.image)], "{method}");
     }
+}
+
+#[test]
+fn a_camera_may_be_placed_anywhere_and_sees_the_same_frame() {
+    let config = config("bistro", "indi-ortho-4");
+    let inputs = Inputs::load(&config).unwrap();
+    let counts = still(&config, &inputs, None, &[]).counts;
+    let plan = plan(&config, &inputs);
+    let (own, grid) = (plan.views[0], plan.grids[0]);
+    let placed = |eye: DVec3, target: DVec3, fov| {
+        let placed = Placed::new(eye.to_array(), target.to_array(), Some(fov)).unwrap();
+        seen_from(&config, &inputs, Viewpoint::Placed(placed), &[Item::Clusters])
+    };
+    // Where the recording's camera is, and what it sees in its middle.
+    let ahead = own.pose.transform_point(DVec3::NEG_Z * 10.0);
+    let fov = 2.0 * own.frustum.x1.atan();
+    let same = placed(own.pose.position, ahead, fov);
+    assert_eq!((same.counts, same.view.as_str()), (counts.clone(), "eye"));
+    let first = still(&config, &inputs, None, &[Item::Clusters]);
+    let equal = same.pixels.cluster_index.iter().zip(&first.pixels.cluster_index).filter(|(a, b)| a == b);
+    assert!(
+        100 * equal.count() >= 98 * first.pixels.cluster_index.len(),
+        "the same camera sees other clusters"
+    );
+    // Outside the scene, farther away than the recording's own cameras see: clusters lie where the host says.
+    let outside = placed(ahead + DVec3::new(20.0, 120.0, 20.0), ahead, 0.25);
+    assert_eq!(outside.counts, counts);
+    let clustered: Vec<usize> =
+        (0..outside.pixels.depth.len()).filter(|&p| outside.pixels.cluster_index[p] != u32::MAX).collect();
+    let agree = clustered.iter().filter(|&&pixel| {
+        let cluster = grid.cluster_of(world(&outside, pixel)).map(|cell| grid.linear(cell));
+        cluster == Some(outside.pixels.cluster_index[pixel])
+    });
+    let agree = agree.count();
+    assert!(clustered.len() > 20, "{} pixels with clusters", clustered.len());
+    assert!(100 * agree >= 95 * clustered.len(), "{agree} of {}", clustered.len());
 }

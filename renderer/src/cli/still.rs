@@ -5,7 +5,7 @@ use crate::config::{Config, ExrFrames, FrameRange, Layer};
 use crate::output::{planned_runs, prepare_output, write_exr, write_png};
 use crate::replay::{Inputs, shape_note};
 use crate::still::camera::BIRDSEYE;
-use crate::still::{Item, Show, Still, render};
+use crate::still::{Item, Placed, Show, Still, Viewpoint, render};
 use crate::{Error, Result};
 use serde::Serialize;
 use std::fmt;
@@ -24,6 +24,19 @@ pub struct Args {
     #[arg(long, value_name = "NAME")]
     view: Option<String>,
 
+    /// A camera of its own instead: where it is, world space in metres. Like birdseye it does not touch the clustering.
+    #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true)]
+    #[arg(requires = "target", conflicts_with = "view")]
+    eye: Option<[f64; 3]>,
+
+    /// What that camera looks at, world space in metres.
+    #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true, requires = "eye")]
+    target: Option<[f64; 3]>,
+
+    /// Its field of view along the longer side of the image, radians [default: 1.2].
+    #[arg(long, value_name = "RADIANS", allow_hyphen_values = true, requires = "eye")]
+    fov: Option<f64>,
+
     /// What to show, with commas between.
     #[arg(long, value_enum, value_delimiter = ',', value_name = "ITEMS")]
     show: Vec<Item>,
@@ -39,13 +52,14 @@ pub struct Args {
 /// Renders the still and writes it as PNG and EXR.
 pub fn run(args: Args, console: &Console) -> Result<()> {
     let show = Show::from_items(&args.show)?;
+    let viewpoint = viewpoint(&args)?;
     let config = configuration(&args)?;
     let run = planned_runs(&config).remove(0);
     run.check()?;
     let inputs = Inputs::load(&config)?;
     inputs.rain_note().into_iter().for_each(|note| console.note(&note));
     prepare_output(&config.out)?;
-    let still = render(&config, &inputs, &run, args.view.as_deref(), &show)?;
+    let still = render(&config, &inputs, &run, viewpoint, &show)?;
     if still.view != BIRDSEYE {
         let shape = shape_note(&inputs.recording, args.frame, config.resolution)?;
         shape.into_iter().for_each(|note| console.note(&note));
@@ -55,6 +69,24 @@ pub fn run(args: Args, console: &Console) -> Result<()> {
     write_png(&png, &still.image)?;
     write_exr(&exr, std::slice::from_ref(&still.pixels))?;
     console.result(&Written::new(&still, run.method.to_string(), [png, exr]))
+}
+
+/// Reads `X,Y,Z`.
+fn place(text: &str) -> std::result::Result<[f64; 3], String> {
+    let wrong = || format!("`{text}` is no place X,Y,Z such as -9,1.8,9");
+    let numbers: Vec<f64> = text
+        .split(',')
+        .map(|part| part.trim().parse().map_err(|_| wrong()))
+        .collect::<std::result::Result<_, _>>()?;
+    numbers.try_into().map_err(|_| wrong())
+}
+
+/// The camera that the flags ask for.
+fn viewpoint(args: &Args) -> Result<Viewpoint<'_>> {
+    match (args.eye, args.target) {
+        (Some(eye), Some(target)) => Placed::new(eye, target, args.fov).map(Viewpoint::Placed),
+        _ => Ok(Viewpoint::Named(args.view.as_deref())),
+    }
 }
 
 /// One frame, one method, one lighting, nothing timed.

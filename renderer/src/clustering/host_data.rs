@@ -6,6 +6,7 @@ use crate::culling::ViewPlanes;
 use crate::geometry::{ClusterSpace, Grid};
 use crate::gpu_interface::{GridData, ViewData};
 use crate::views::{Pose, View};
+use glam::DVec4;
 
 /// Rounding of positions and planes in f32 stays below this fraction of the far distance, or of the radius where that is
 /// larger (measured: see the tests of the CPU twin), so radii grown by it never lose a light.
@@ -28,9 +29,9 @@ pub fn grid_data(grid: &Grid, lights: u32, sizes: &ClusteringSizes) -> GridData 
             (min, (max - min) / dimensions, min.abs().max(max.abs()).max_element())
         }
     };
-    let (low, high) = bounds(grid);
+    let (low, high) = grid.bounds();
     GridData {
-        clustering_from_world: rigid_inverse(&grid.pose),
+        clustering_from_world: inverse(&grid.pose),
         dimensions: grid.dimensions,
         word_count: grid.cluster_count().div_ceil(32) as u32,
         origin: origin.as_vec3().to_array(),
@@ -51,24 +52,12 @@ pub fn grid_data(grid: &Grid, lights: u32, sizes: &ClusteringSizes) -> GridData 
     }
 }
 
-/// Lowest and highest corner of a grid in clustering space.
-fn bounds(grid: &Grid) -> (glam::DVec3, glam::DVec3) {
-    let last = grid.dimensions.map(|count| count - 1);
-    let (mut low, mut high) = (glam::DVec3::INFINITY, glam::DVec3::NEG_INFINITY);
-    for corner in 0..8 {
-        let cell = std::array::from_fn(|axis| if corner >> axis & 1 == 1 { last[axis] } else { 0 });
-        let (cell_low, cell_high) = grid.cell_bounds(cell);
-        (low, high) = (low.min(cell_low), high.max(cell_high));
-    }
-    (low, high)
-}
-
 /// What the lookup over all lights reads: no grid, every light.
 pub fn gridless_data(lights: u32) -> GridData {
     GridData { light_count: lights, ..bytemuck::Zeroable::zeroed() }
 }
 
-fn rigid_inverse(pose: &Pose) -> [[f32; 4]; 4] {
+fn inverse(pose: &Pose) -> [[f32; 4]; 4] {
     pose.inverse().to_matrix().as_mat4().to_cols_array_2d()
 }
 
@@ -90,5 +79,7 @@ pub fn view_data(view: &View, grid: Option<&Grid>, resolution: [u32; 2], reach: 
         near: -f.z1 as f32,
         far: -f.z0 as f32,
         planes: ViewPlanes::new(view).for_device(reach),
+        clip_plane: view.pose.mirror.map_or(DVec4::W, |mirror| mirror.plane()).as_vec4().to_array(),
+        mirrored: u32::from(view.pose.mirror.is_some()),
     }
 }

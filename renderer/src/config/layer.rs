@@ -12,7 +12,7 @@ use serde::Deserialize;
 use std::path::PathBuf;
 
 /// What one source says of a [`Config`]. The same declaration is the JSON file, its schema and the flags,
-/// so that every field is a flag and every flag a field.
+/// so that every field is a flag.
 #[derive(Debug, Clone, Default, PartialEq, clap::Args, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(
@@ -31,7 +31,7 @@ pub struct Layer {
     #[schemars(length(min = 1))]
     pub scene: Option<String>,
 
-    /// Recording: `bistro`, `suntem`, `bistro-vive`, `suntem-vive`, or the path of a JSON file.
+    /// Recording: `bistro`, `suntem`, `bistro-vive`, `bistro-mirror`, `suntem-vive`, or the path of a JSON file.
     #[arg(long, value_name = "NAME|PATH")]
     #[serde(default, deserialize_with = "de::text")]
     #[schemars(length(min = 1))]

@@ -6,19 +6,86 @@
 //! boxes of instances ─cull─> what is drawn
 //! ```
 //!
+//! Assignment by other ways than brute force has twins of each of its steps, which take what the step before left on the
+//! device:
+//!
+//! ```text
+//! visible clusters ─mark_blocks─> blocks ─cull_lights─> candidates ─┬─keys, sorted, build_nodes─> tree ─descend─> lists
+//!                                                                   └─scatter_groups─> groups ─scatter─> lists
+//! bits ─read_masks─> lists      lists in any order ─sort_lists─> lists
+//! ```
+//!
 //! Where f32 may fall on the other side of a boundary, a twin given an epsilon says so itself ([`Marks`],
-//! [`LightLists`], [`Seen`]); everything else must agree exactly.
+//! [`LightLists`], [`FoundLists`], [`Culled`], [`Descent`], [`Seen`]); everything else must agree exactly.
 
 mod assign;
 mod attenuation;
+mod brdf;
 mod compact;
 mod cull;
+mod cull_lights;
+mod hierarchy;
+mod lists;
 mod mark;
 mod scan;
+mod scatter;
 
 pub use assign::{LightLists, assign};
 pub use attenuation::attenuation;
+pub use brdf::{Surface, reflected};
 pub use compact::{Compacted, NOT_VISIBLE, compact};
 pub use cull::{Seen, cull};
+pub use cull_lights::{Blocks, Candidate, CellRange, Culled, cull_lights, mark_blocks};
+pub use hierarchy::{Descent, Key, Node, Tree, build_nodes, descend, keys, sorted};
+pub use lists::{FoundLists, read_masks, sort_lists};
 pub use mark::{DepthImage, Marks, mark};
 pub use scan::scan;
+pub use scatter::{Group, scatter, scatter_groups};
+
+use crate::geometry::Grid;
+
+/// The visible clusters of a grid.
+#[derive(Debug, Clone, Copy)]
+pub struct Visible<'a> {
+    /// The grid.
+    pub grid: &'a Grid,
+    /// Linear indices, ascending.
+    pub clusters: &'a [u32],
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::geometry::{ClusterSpace, Frustum, Grid};
+    use crate::views::Pose;
+    use glam::DVec3;
+
+    /// Unit cells along the x axis.
+    pub fn row(cells: u32) -> Grid {
+        let max = DVec3::new(f64::from(cells), 1.0, 1.0);
+        let space = ClusterSpace::Orthographic { min: DVec3::ZERO, max };
+        Grid { pose: Pose::IDENTITY, space, dimensions: [cells, 1, 1] }
+    }
+
+    /// A frustum of 7 x 5 x 9 cells that ends at 60 m.
+    pub fn frustum_grid() -> Grid {
+        let frustum = Frustum { x0: -1.0, x1: 0.8, y0: -0.6, y1: 0.7, z0: -60.0, z1: -0.5 };
+        let ratio = 120f64.powf(1.0 / 9.0) - 1.0;
+        Grid {
+            pose: Pose::IDENTITY,
+            space: ClusterSpace::Perspective { frustum, ratio },
+            dimensions: [7, 5, 9],
+        }
+    }
+
+    /// Spheres in front of the camera, spread evenly enough.
+    pub fn spheres(count: u32) -> Vec<[f32; 4]> {
+        let part = |i: u32, step: f32| (i as f32 * step).fract();
+        (0..count)
+            .map(|i| {
+                let depth = 1.0 + 30.0 * part(i, 0.618_034);
+                let across = |step: f32| depth * (2.0 * part(i, step) - 1.0);
+                [across(0.414_214), across(0.732_051), -depth, 0.3 + 3.0 * part(i, 0.236_068)]
+            })
+            .collect()
+    }
+}

@@ -2,13 +2,13 @@
 
 /// The exclusive prefix sum of `values`, and behind it their total: one entry more than `values` has.
 ///
-/// Sums wrap as u32 sums do on the device.
+/// A sum that 32 bits do not hold is all ones, as on the device.
 pub fn scan(values: &[u32]) -> Vec<u32> {
     let mut sums = Vec::with_capacity(values.len() + 1);
     let mut sum = 0u32;
     sums.push(sum);
     for &value in values {
-        sum = sum.wrapping_add(value);
+        sum = sum.saturating_add(value);
         sums.push(sum);
     }
     sums
@@ -23,6 +23,6 @@ mod tests {
         assert_eq!(scan(&[]), [0]);
         assert_eq!(scan(&[7]), [0, 7]);
         assert_eq!(scan(&[3, 0, 5, 1]), [0, 3, 3, 8, 9]);
-        assert_eq!(scan(&[u32::MAX, 3]), [0, u32::MAX, 2]);
+        assert_eq!(scan(&[u32::MAX, 3]), [0, u32::MAX, u32::MAX]);
     }
 }

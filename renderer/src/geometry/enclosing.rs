@@ -142,7 +142,7 @@ mod tests {
 
     fn view(x: f64, yaw: f64) -> View {
         let rotation = DQuat::from_rotation_y(yaw);
-        View { pose: Pose { position: DVec3::new(x, 1.0, 2.0), rotation }, frustum: EYE }
+        View { pose: Pose { position: DVec3::new(x, 1.0, 2.0), rotation, mirror: None }, frustum: EYE }
     }
 
     #[test]
@@ -179,7 +179,10 @@ mod tests {
         let frustum = Frustum { x0: -0.3, x1: 0.3, y0: -0.3, y1: 0.3, z0: -20.0, z1: -5.0 };
         let inwards = |side: f64| {
             let rotation = DQuat::from_rotation_y(0.6 * side) * DQuat::from_rotation_x(-0.6 * side);
-            View { pose: Pose { position: DVec3::new(20.0, 20.0, 0.0) * side, rotation }, frustum }
+            View {
+                pose: Pose { position: DVec3::new(20.0, 20.0, 0.0) * side, rotation, mirror: None },
+                frustum,
+            }
         };
         let Enclosing { apex, frustum } = enclosing(&Pose::IDENTITY, &[inwards(-1.0), inwards(1.0)]).unwrap();
         assert!(apex > 0.0 && frustum.validate().is_ok(), "{apex} {frustum:?}");

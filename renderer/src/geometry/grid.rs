@@ -120,6 +120,19 @@ impl Grid {
             })
     }
 
+    /// Lowest and highest corner of the whole grid in clustering space.
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        let last = self.dimensions.map(|count| count - 1);
+        let corner = |corner: usize| -> [u32; 3] {
+            std::array::from_fn(|axis| if corner >> axis & 1 == 1 { last[axis] } else { 0 })
+        };
+        (0..8)
+            .map(|i| self.cell_bounds(corner(i)))
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), (cell_low, cell_high)| {
+                (low.min(cell_low), high.max(cell_high))
+            })
+    }
+
     /// The point of clustering space with the given fractional cluster coordinates: the inverse of
     /// [`Grid::coordinates`].
     pub fn point_at(&self, coordinates: DVec3) -> DVec3 {

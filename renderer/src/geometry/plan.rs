@@ -5,7 +5,7 @@ use super::displaced::displaced;
 use super::{ClusterSpace, Frustum, Grid, enclosing};
 use crate::config::DisplacedVolume;
 use crate::methods::{MethodSpec, Sharing, Space};
-use crate::views::{Pose, View, head_space};
+use crate::views::{Pose, View, common_mirror, head_space};
 use crate::{Error, Result};
 use glam::DVec3;
 
@@ -103,6 +103,12 @@ impl Planner {
     }
 
     fn enclosing_frustum(&self, head: &Pose, views: &[View]) -> Result<(Pose, Frustum)> {
+        if common_mirror(views).is_none() {
+            return Err(self.error(
+                "not all views see the world in the same mirror, and no frustum encloses both sides of one; use an \
+                 Ortho method (such as encl-ortho-4), which needs none, or Indi",
+            ));
+        }
         let found = enclosing(head, views).map_err(|error| self.error(&error.to_string()))?;
         Ok((*head * Pose::from_position(DVec3::Z * found.apex), found.frustum))
     }

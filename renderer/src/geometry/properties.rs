@@ -3,7 +3,7 @@
 use super::{CellTest, ClusterSpace, Frustum, Grid, SphereTest, axis_box, half_space, plan};
 use crate::config::DisplacedVolume;
 use crate::methods::{Sharing, Space};
-use crate::views::{Pose, View};
+use crate::views::{Mirror, Pose, View};
 use glam::{DQuat, DVec3, EulerRot};
 use proptest::prelude::*;
 
@@ -17,16 +17,30 @@ fn frustum() -> impl Strategy<Value = Frustum> {
 
 /// A head anywhere, and eyes near it, or cameras around it, that are canted a little.
 fn views() -> impl Strategy<Value = Vec<View>> {
-    let pose = |metres: f64, most: f64| {
-        let position = [-metres..metres, -metres..metres, -metres..metres].prop_map(DVec3::from_array);
-        (position, (-most..most, -most..most, -most..most)).prop_map(|(position, (yaw, pitch, roll))| Pose {
-            position,
-            rotation: DQuat::from_euler(EulerRot::YXZ, yaw, pitch, roll),
-        })
-    };
+    let pose =
+        |metres: f64, most: f64| {
+            let position = [-metres..metres, -metres..metres, -metres..metres].prop_map(DVec3::from_array);
+            (position, (-most..most, -most..most, -most..most)).prop_map(|(position, (yaw, pitch, roll))| {
+                Pose { position, rotation: DQuat::from_euler(EulerRot::YXZ, yaw, pitch, roll), mirror: None }
+            })
+        };
     let eye = prop_oneof![3 => pose(0.1, 0.2), 1 => pose(20.0, 0.2)];
-    (pose(80.0, 3.0), prop::collection::vec((eye, frustum()), 1..=4)).prop_map(|(head, eyes)| {
-        eyes.into_iter().map(|(eye, frustum)| View { pose: head * eye, frustum }).collect()
+    (pose(80.0, 3.0), prop::collection::vec((eye, frustum()), 1..=4), mirror()).prop_map(
+        |(head, eyes, mirror)| {
+            let view = |(eye, frustum)| View { pose: Pose { mirror, ..head * eye }, frustum };
+            eyes.into_iter().map(view).collect()
+        },
+    )
+}
+
+/// A mirror that all views see, or none.
+fn mirror() -> impl Strategy<Value = Option<Mirror>> {
+    let angle = || -3.0..3.0f64;
+    prop::option::weighted(0.3, (angle(), angle(), -50.0..50.0f64)).prop_map(|plane| {
+        plane.map(|(yaw, pitch, offset)| Mirror {
+            normal: DQuat::from_euler(EulerRot::YXZ, yaw, pitch, 0.0) * DVec3::Z,
+            offset,
+        })
     })
 }
 
@@ -244,6 +258,16 @@ fn what_cannot_be_planned_is_refused_with_the_methods_name() {
         let message = planned.unwrap_err().to_string();
         assert!(message.contains(words), "'{message}' does not say '{words}'");
     }
-    let mirror = plan(ortho(4.0), Sharing::Encl, &[view, behind], RESOLUTION, DisplacedVolume::View);
-    assert!(mirror.is_ok(), "Ortho encloses any views");
+    let mirror = Some(Mirror { normal: DVec3::Y, offset: -2.0 });
+    let seen = View { pose: Pose { mirror, ..Pose::IDENTITY }, frustum };
+    for space in [persp(64.0), displ(32.0)] {
+        let planned = |views: &[View]| plan(space, Sharing::Encl, views, RESOLUTION, DisplacedVolume::View);
+        let message = planned(&[view, seen]).unwrap_err().to_string();
+        assert!(message.contains("mirror") && message.contains("encl-ortho-4"), "{message}");
+        assert!(planned(&[seen, seen]).is_ok(), "views in one mirror agree");
+    }
+    for views in [[view, behind], [view, seen]] {
+        let planned = plan(ortho(4.0), Sharing::Encl, &views, RESOLUTION, DisplacedVolume::View);
+        assert!(planned.is_ok(), "Ortho encloses any views");
+    }
 }

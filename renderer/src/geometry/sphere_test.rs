@@ -56,6 +56,19 @@ impl SphereTest {
     /// Names to suggest; the axes of `sat` combine freely.
     const KNOWN: [&str; 7] = ["exact", "box", "hs", "hs+sat-n", "hs+sat-epv", "sat-epv", "auto"];
 
+    /// Whether what passes lies within the cluster's planes moved out by the radius, so that ranges of cells and boxes
+    /// around lights can be cut by them. The edges of `boxes` (orthographic clusters) are their normals.
+    pub fn is_bounded(self, boxes: bool) -> bool {
+        match self {
+            Self::Exact | Self::Box => true,
+            Self::Separating(asked) => {
+                asked.contain(Candidates::HALF_SPACES)
+                    || asked.contain(Candidates::NORMALS)
+                    || boxes && asked.contain(Candidates::EDGES)
+            }
+        }
+    }
+
     /// Whether `candidates` are asked.
     pub fn asks(self, candidates: Candidates) -> bool {
         matches!(self, Self::Separating(asked) if asked.contain(candidates))

@@ -19,7 +19,7 @@ const DISPL_64_32: Space = Space::Displ { pixels: 64.0, displacement: 32.0 };
 /// Somewhere, turned some way: grids must not depend on it.
 fn pose() -> Pose {
     let rotation = DQuat::from_rotation_y(2.7) * DQuat::from_rotation_x(-0.2);
-    Pose { position: DVec3::new(17.8, 4.9, -41.8), rotation }
+    Pose { position: DVec3::new(17.8, 4.9, -41.8), rotation, mirror: None }
 }
 
 fn mono(fov: f64) -> Vec<View> {

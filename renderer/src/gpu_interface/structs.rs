@@ -7,9 +7,9 @@ gpu_struct! {
     pub struct ViewData {
         /// Reversed depth: 1 near, 0 far.
         pub clip_from_world: [[f32; 4]; 4],
-        /// Rigid.
+        /// Rigid, but for a view in a mirror.
         pub world_from_view: [[f32; 4]; 4],
-        /// Rigid; into the space of the clustering that this view looks up.
+        /// Likewise; into the space of the clustering that this view looks up.
         pub clustering_from_view: [[f32; 4]; 4],
         /// Left and bottom tangent.
         pub tangent_min: [f32; 2],
@@ -23,13 +23,17 @@ gpu_struct! {
         pub far: f32,
         /// Inward unit normal and offset of each side, world space, moved out by what rounding may cost.
         pub planes: [[f32; 4]; 6],
+        /// Normal and offset of the mirror, world space: what lies behind is not seen. (0, 0, 0, 1) without one.
+        pub clip_plane: [f32; 4],
+        /// 1 in a mirror, where faces turn the other way.
+        pub mirrored: u32,
     }
 }
 
 gpu_struct! {
     /// One clustering in one frame: its grid, its lights, its capacities.
     pub struct GridData {
-        /// Rigid.
+        /// Rigid, but for the clustering of a view in a mirror.
         pub clustering_from_world: [[f32; 4]; 4],
         /// Dx, Dy, Dz.
         pub dimensions: [u32; 3],

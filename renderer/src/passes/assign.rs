@@ -59,11 +59,21 @@ pub fn count_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
 /// The lists themselves, each by ascending light.
 pub fn assign_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
     r.scope("assign_lights", |r| {
-        let pipelines = frame.pipelines.clustered();
-        per_list(r, frame, clustering, (&pipelines.read_masks[1], DISPATCH_MASKED));
-        meet(r, frame, clustering, (&pipelines.assign_lights, DISPATCH_MEET_AGAIN));
-        per_list(r, frame, clustering, (&pipelines.sort_lists, DISPATCH_UNMASKED));
+        write_lists(r, frame, clustering);
+        sort_lists(r, frame, clustering);
     });
+}
+
+/// Writes the lists: off their bits, in order, or else pair by pair, in any order.
+pub(crate) fn write_lists(r: &mut Recorder, frame: &Frame, clustering: usize) {
+    let pipelines = frame.pipelines.clustered();
+    per_list(r, frame, clustering, (&pipelines.read_masks[1], DISPATCH_MASKED));
+    meet(r, frame, clustering, (&pipelines.assign_lights, DISPATCH_MEET_AGAIN));
+}
+
+/// Sorts lists that were written in any order.
+pub(crate) fn sort_lists(r: &mut Recorder, frame: &Frame, clustering: usize) {
+    per_list(r, frame, clustering, (&frame.pipelines.clustered().sort_lists, DISPATCH_UNMASKED));
 }
 
 /// Takes candidates to groups of visible clusters: counts them, or lists them.

@@ -87,9 +87,20 @@ pub fn draw(
     if !frame.draws_any(eyes, kind) {
         return;
     }
-    let (list, views) = (frame.list_of(eyes), frame.view_count(eyes));
     frame.bind(r, vk::PipelineBindPoint::GRAPHICS, pipeline, eyes.first());
-    let mut state = SurfaceState { textured, material: None, facing: None };
+    let mut state = SurfaceState { textured, mirrored: false, material: None, facing: None };
+    // Views drawn at once take a draw for each way that faces turn, and leave out what is not of it.
+    for mirrored in [false, true].into_iter().filter(|&way| frame.any_mirrored(eyes, way)) {
+        state.mirrored = mirrored;
+        if eyes == Eyes::All {
+            frame.push_step(r, u32::from(mirrored));
+        }
+        draw_all(r, frame, eyes, (kind, &mut state));
+    }
+}
+
+fn draw_all(r: &Recorder, frame: &Frame, eyes: Eyes, (kind, state): (SurfaceKind, &mut SurfaceState)) {
+    let (list, views) = (frame.list_of(eyes), frame.view_count(eyes));
     match &frame.draws {
         Draws::Listed(lists) => {
             for run in lists[list].runs(kind) {
@@ -138,6 +149,8 @@ fn draw_commands(r: &Recorder, commands: &Buffer, first: u64, count: u32) {
 /// The textures bound and the facing set, so that neither is set twice.
 struct SurfaceState {
     textured: bool,
+    /// Whether what is drawn is seen in a mirror.
+    mirrored: bool,
     material: Option<u32>,
     facing: Option<(bool, bool)>,
 }
@@ -149,14 +162,15 @@ impl SurfaceState {
             let textures = frame.scene.material_sets[batch.material as usize];
             frame.bind_set(r, vk::PipelineBindPoint::GRAPHICS, SET_MATERIAL, textures);
         }
-        let facing = (batch.mirrored, batch.double_sided);
+        let facing = (batch.mirrored != self.mirrored, batch.double_sided);
         if self.facing.replace(facing) != Some(facing) {
-            set_facing(r, batch.mirrored, batch.double_sided);
+            set_facing(r, facing.0, facing.1);
         }
     }
 }
 
-fn set_facing(r: &Recorder, mirrored: bool, double_sided: bool) {
+/// Sets which faces are front, the other ones where what is drawn is `mirrored`, and whether the others are left out.
+pub fn set_facing(r: &Recorder, mirrored: bool, double_sided: bool) {
     let cull = if double_sided { vk::CullModeFlags::NONE } else { vk::CullModeFlags::BACK };
     let front = if mirrored { vk::FrontFace::CLOCKWISE } else { vk::FrontFace::COUNTER_CLOCKWISE };
     unsafe {

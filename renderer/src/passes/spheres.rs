@@ -1,5 +1,6 @@
 //! Influence volumes of the lights over a still, as translucent spheres.
 
+use super::draws::set_facing;
 use crate::frame::Frame;
 use crate::pass::Recorder;
 use crate::pipelines::DebugPipelines;
@@ -16,5 +17,6 @@ const VERTICES: u32 = 6 * RINGS * SEGMENTS;
 /// Draws all lights of the frame, in their order; rendering to the view is open.
 pub fn record(r: &Recorder, frame: &Frame, pipelines: &DebugPipelines, view: usize) {
     frame.bind(r, vk::PipelineBindPoint::GRAPHICS, &pipelines.spheres, view);
+    set_facing(r, frame.mirrored[view], false);
     unsafe { r.context.device.cmd_draw(r.commands(), VERTICES, frame.light_count, 0, 0) };
 }

@@ -67,8 +67,13 @@ impl PipelineStore {
     }
 
     fn spheres(&self, variant: &Variant) -> Result<Arc<Pipeline>> {
-        let defines = variant.defines().with("SPHERE_RINGS", RINGS).with("SPHERE_SEGMENTS", SEGMENTS);
-        self.overlay_pipeline("debug/spheres", &defines, overlay(variant))
+        let defines = variant
+            .defines()
+            .with("SPHERE_RINGS", RINGS)
+            .with("SPHERE_SEGMENTS", SEGMENTS)
+            .with("MIRRORS", u32::from(self.views.mirrors));
+        let desc = GraphicsDesc { dynamic_facing: true, ..overlay(variant) };
+        self.overlay_pipeline("debug/spheres", &defines, desc)
     }
 
     fn overlay_pipeline(

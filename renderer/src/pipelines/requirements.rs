@@ -1,11 +1,12 @@
 //! What a configuration asks of the device.
 
 use crate::config::{Config, Culling, Marking};
+use crate::views::ViewSet;
 use crate::vk::Context;
 use crate::{Error, Result};
 
 /// Refuses what the device cannot do, before anything is made.
-pub fn check_device(context: &Context, config: &Config) -> Result<()> {
+pub fn check_device(context: &Context, config: &Config, views: ViewSet) -> Result<()> {
     let limits = &context.limits;
     let (samples, marking) = (config.msaa, config.marking);
     if !limits.sample_counts.contains(&samples) {
@@ -31,6 +32,12 @@ pub fn check_device(context: &Context, config: &Config) -> Result<()> {
     if config.multiview && !limits.shader_output_layer {
         return Err(Error::Device(format!(
             "{} lacks shaderOutputLayer, which drawing all views at once needs: leave --multiview out",
+            context.info.name
+        )));
+    }
+    if views.mirrors && !limits.shader_clip_distance {
+        return Err(Error::Device(format!(
+            "{} lacks shaderClipDistance, which views in mirrors need: use a recording without",
             context.info.name
         )));
     }

@@ -85,8 +85,6 @@ impl Variant {
         let [edges, nearest_vertex, normals, vertices] =
             [Candidates::EDGES, Candidates::NEAREST_VERTEX, Candidates::NORMALS, Candidates::VERTICES]
                 .map(|candidates| self.test.asks(candidates));
-        // The edges of boxes are their normals.
-        let bounded = half_spaces || normals || nearest || boxes && edges;
         self.list_defines()
             .with("TEST_HS", u32::from(half_spaces))
             .with("TEST_SAT_E", u32::from(edges))
@@ -94,7 +92,7 @@ impl Variant {
             .with("TEST_SAT_P", u32::from(normals))
             .with("TEST_SAT_V", u32::from(vertices))
             .with("TEST_NEAREST", u32::from(nearest))
-            .with("TEST_BOUNDED", u32::from(bounded))
+            .with("TEST_BOUNDED", u32::from(self.test.is_bounded(boxes)))
     }
 }
 

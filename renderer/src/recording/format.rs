@@ -2,12 +2,12 @@
 
 use super::json::{Check, Problem};
 use crate::rain::RainParameters;
-use crate::views::Pose;
+use crate::views::{Mirror, Pose};
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
 /// Largest magnitude of a coordinate, metres: beyond it single precision is coarser than 0.1 m.
-pub(super) const MAX_COORDINATE: f64 = 1e6;
+pub(crate) const MAX_COORDINATE: f64 = 1e6;
 
 /// How far a quaternion's length may be from 1.
 const UNIT_TOLERANCE: f64 = 1e-6;
@@ -73,6 +73,9 @@ pub struct Eye {
     pub name: String,
     /// One row that holds for all frames, or one row a frame.
     pub rows: Vec<EyeRow>,
+    /// Where the eye sees the world in a mirror: its plane, one that holds for all frames, or one a frame.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub mirror: Vec<MirrorRow>,
 }
 
 /// Head of one frame; in the file `[x, y, z, qx, qy, qz, qw, fov]`.
@@ -93,6 +96,24 @@ pub struct EyeRow {
     pub pose: Pose,
     /// Signed tangents x0 < x1 (left, right), y0 < y1 (bottom, top) of the frustum's sides.
     pub tangents: [f64; 4],
+}
+
+/// The mirror of one eye in one frame; in the file `[nx, ny, nz, offset]`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(from = "[f64; 4]", into = "[f64; 4]")]
+pub struct MirrorRow(pub Mirror);
+
+impl From<[f64; 4]> for MirrorRow {
+    fn from([x, y, z, offset]: [f64; 4]) -> Self {
+        Self(Mirror { normal: DVec3::new(x, y, z), offset })
+    }
+}
+
+impl From<MirrorRow> for [f64; 4] {
+    fn from(MirrorRow(mirror): MirrorRow) -> Self {
+        let DVec3 { x, y, z } = mirror.normal;
+        [x, y, z, mirror.offset]
+    }
 }
 
 impl From<[f64; 8]> for Frame {
@@ -123,7 +144,7 @@ impl From<EyeRow> for [f64; 11] {
 }
 
 fn pose([x, y, z, qx, qy, qz, qw]: [f64; 7]) -> Pose {
-    Pose { position: DVec3::new(x, y, z), rotation: DQuat::from_xyzw(qx, qy, qz, qw) }
+    Pose { position: DVec3::new(x, y, z), rotation: DQuat::from_xyzw(qx, qy, qz, qw), mirror: None }
 }
 
 fn numbers(pose: &Pose) -> [f64; 7] {
@@ -142,6 +163,7 @@ impl Frame {
             head: Pose {
                 position: position.to_array().map(|value| round_to(value, 1e6)).into(),
                 rotation: DQuat::from_xyzw(fine(q.x), fine(q.y), fine(q.z), fine(q.w)),
+                mirror: None,
             },
             fov: fine(fov),
         }
@@ -159,6 +181,7 @@ impl Hmd {
         let eye = |name: &str, x: f64, tangents: [f64; 4]| Eye {
             name: name.to_owned(),
             rows: vec![EyeRow { pose: pose([x, 0.0, 0.015, 0.0, 0.0, 0.0, 1.0]), tangents }],
+            mirror: vec![],
         };
         Self {
             name: "HTC Vive".to_owned(),
@@ -169,13 +192,25 @@ impl Hmd {
         }
     }
 
-    /// Every eye's rows must be one, or one for each of `frames`.
+    /// With one more eye, in the middle of the head, that sees in `mirror` all that the others see with their own
+    /// tangents.
+    pub fn with_mirror(mut self, mirror: Mirror) -> Self {
+        let tangents = self.eyes.iter().flat_map(|eye| &eye.rows).map(|row| row.tangents);
+        let widest =
+            |a: [f64; 4], b: [f64; 4]| [a[0].min(b[0]), a[1].max(b[1]), a[2].min(b[2]), a[3].max(b[3])];
+        let tangents = tangents.reduce(widest).unwrap_or([-1.0, 1.0, -1.0, 1.0]);
+        let row = EyeRow { pose: Pose::IDENTITY, tangents };
+        self.eyes.push(Eye { name: "mirror".to_owned(), rows: vec![row], mirror: vec![MirrorRow(mirror)] });
+        self
+    }
+
+    /// Every eye's rows must be one, or one for each of `frames`, and so must its mirror's where it has one.
     pub(super) fn check_rows(&self, frames: usize) -> Result<(), Problem> {
         for (index, eye) in self.eyes.iter().enumerate() {
-            let rows = eye.rows.len();
-            if rows != 1 && rows != frames {
+            let rows = [("rows", eye.rows.len()), ("mirror", eye.mirror.len().max(1))];
+            if let Some((field, rows)) = rows.into_iter().find(|&(_, rows)| rows != 1 && rows != frames) {
                 let message = format!("has {rows} rows; give 1, or {frames}, one a frame");
-                return Err(Problem::new(message).under("rows").under(index).under("eyes"));
+                return Err(Problem::new(message).under(field).under(index).under("eyes"));
             }
         }
         Ok(())
@@ -295,7 +330,24 @@ impl Check for Eye {
         for (index, row) in self.rows.iter().enumerate() {
             row.check().map_err(|problem| problem.under(index).under("rows"))?;
         }
+        for (index, row) in self.mirror.iter().enumerate() {
+            row.check().map_err(|problem| problem.under(index).under("mirror"))?;
+        }
         Ok(())
+    }
+}
+
+impl Check for MirrorRow {
+    fn check(&self) -> Result<(), Problem> {
+        let Mirror { normal, offset } = self.0;
+        if offset.is_nan() || offset.abs() > MAX_COORDINATE {
+            return Err(Problem::new(format!("{offset} is not within +-{MAX_COORDINATE} m")).under(3));
+        }
+        let length = normal.length();
+        if (length - 1.0).abs() <= UNIT_TOLERANCE {
+            return Ok(());
+        }
+        Err(Problem::new(format!("the normal (elements 0 to 2) has length {length}, not 1")))
     }
 }
 

@@ -19,7 +19,10 @@
 //!   },
 //!   "hmd": {
 //!     "name": "may be left out with the whole hmd",
-//!     "eyes": [{"name": "left", "rows": [[-0.03, 0, 0, 0, 0, 0, 1, -1.4, 1.2, -1.5, 1.5]]}]
+//!     "eyes": [
+//!       {"name": "left", "rows": [[-0.03, 0, 0, 0, 0, 0, 1, -1.4, 1.2, -1.5, 1.5]]},
+//!       {"name": "window", "rows": [[0, 0, 0, 0, 0, 0, 1, -1, 1, -1, 1]], "mirror": [[0, 0, -1, -36]]}
+//!     ]
 //!   },
 //!   "frames": [
 //!     [17.8, 4.9, -41.8, 0, 0, 0, 1, 1.26]
@@ -35,6 +38,11 @@
 //! signed side tangents; one row holds for all frames, else there is one row a frame. Heads and eyes look down
 //! their -Z, +Y up. With an `hmd` there is one view an eye and `fov` rests; without one there is one view.
 //!
+//! An eye with a `mirror` sees the world reflected at a plane of the world, the points p with n·p = offset, a row of
+//! `[nx, ny, nz, offset]` with n of length 1: left and right change places, and what lies behind the plane, where n does
+//! not point, is not seen. It looks from where its own row says, so that its picture lies pixel by pixel on what an eye
+//! of the same row sees through the mirror's frame. One row holds for all frames, else there is one row a frame.
+//!
 //! Playback ([`Recording::views`]) is a pure function of the frame number. Recordings come from files and from
 //! the binary ([`load`]), from the thesis's own program ([`import_bin`]) and from waypoints ([`bake()`]).
 
@@ -45,22 +53,24 @@ mod json;
 mod write;
 
 pub use bake::bake;
-pub use format::{Eye, EyeRow, Format, Frame, Hmd, RecordingFile, Source};
+pub(crate) use format::MAX_COORDINATE;
+pub use format::{Eye, EyeRow, Format, Frame, Hmd, MirrorRow, RecordingFile, Source};
 pub use import::{ImportOptions, import_bin};
 pub(crate) use json::{Check, Problem};
 
 use crate::geometry::Frustum;
 use crate::rain::RainParameters;
-use crate::views::{Pose, View};
+use crate::views::{Mirror, Pose, View, ViewSet};
 use crate::{Error, Result};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
 /// The recordings in the binary, by name.
-const BUNDLED: [(&str, &str); 4] = [
+const BUNDLED: [(&str, &str); 5] = [
     ("bistro", include_str!("../../../recordings/bistro.json")),
     ("suntem", include_str!("../../../recordings/suntem.json")),
     ("bistro-vive", include_str!("../../../recordings/bistro-vive.json")),
+    ("bistro-mirror", include_str!("../../../recordings/bistro-mirror.json")),
     ("suntem-vive", include_str!("../../../recordings/suntem-vive.json")),
 ];
 
@@ -183,6 +193,12 @@ impl Recording {
         }
     }
 
+    /// How many views there are, and whether some see the world in a mirror.
+    pub fn view_set(&self) -> ViewSet {
+        let mirrors = |hmd: &Hmd| hmd.eyes.iter().any(|eye| !eye.mirror.is_empty());
+        ViewSet { count: self.view_names().len(), mirrors: self.file.hmd.as_ref().is_some_and(mirrors) }
+    }
+
     /// The views of `frame`: one an eye of the HMD, with its tangents whatever the resolution; without an HMD
     /// one, symmetric, its field of view along the longer axis of `resolution` (width and height of a view in
     /// pixels).
@@ -208,11 +224,13 @@ impl Recording {
     }
 
     fn eye_view(&self, frame: &Frame, eye: &Eye, number: u32) -> View {
-        let row = &eye.rows[if eye.rows.len() == 1 { 0 } else { number as usize }];
+        let row = of_frame(&eye.rows, number).expect("a checked recording has one row, or one a frame");
+        let mirror = of_frame(&eye.mirror, number).map(|row| unit_mirror(&row.0));
         let (head, eye) = (unit(&frame.head), unit(&row.pose));
         let pose = Pose {
             position: head.position + head.rotation * eye.position,
             rotation: (head.rotation * eye.rotation).normalize(),
+            mirror,
         };
         View { pose, frustum: self.frustum(row.tangents) }
     }
@@ -222,9 +240,19 @@ impl Recording {
     }
 }
 
+/// The row of a frame among rows of all frames, or the one that holds for all; `None` of none.
+fn of_frame<T>(rows: &[T], frame: u32) -> Option<&T> {
+    if let [row] = rows { Some(row) } else { rows.get(frame as usize) }
+}
+
+/// The same plane with its normal's length, 1 within the format's tolerance, made 1.
+fn unit_mirror(mirror: &Mirror) -> Mirror {
+    Mirror { normal: mirror.normal.normalize(), ..*mirror }
+}
+
 /// The same pose with its quaternion's length, 1 within the format's tolerance, made 1.
 fn unit(pose: &Pose) -> Pose {
-    Pose { position: pose.position, rotation: pose.rotation.normalize() }
+    Pose { rotation: pose.rotation.normalize(), ..*pose }
 }
 
 /// x0, x1, y0, y1 of a field of view (radians) that spans the longer axis.

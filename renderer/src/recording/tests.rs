@@ -29,9 +29,13 @@ fn refusal(from: &str, to: &str) -> String {
 
 #[test]
 fn bundled_recordings_load_and_play() {
-    for (name, frames, views) in
-        [("bistro", 670, 1), ("suntem", 885, 1), ("bistro-vive", 670, 2), ("suntem-vive", 885, 2)]
-    {
+    for (name, frames, views) in [
+        ("bistro", 670, 1),
+        ("suntem", 885, 1),
+        ("bistro-vive", 670, 2),
+        ("bistro-mirror", 670, 3),
+        ("suntem-vive", 885, 2),
+    ] {
         let recording = load(name).unwrap();
         assert_eq!((recording.name(), recording.frame_count()), (name, frames));
         assert_eq!(recording.view_names().len(), views);
@@ -50,6 +54,51 @@ fn the_field_of_view_spans_the_longer_axis() {
     assert_eq!((wide.x0, wide.x1, wide.z0, wide.z1), (-half, half, -100.0, -0.4));
     assert_eq!((wide.y0, wide.y1), (-half * 0.5625, half * 0.5625));
     assert_eq!((tall.x0, tall.x1, tall.y0, tall.y1), (wide.y0, wide.y1, wide.x0, wide.x1));
+}
+
+#[test]
+fn the_mirror_is_a_puddle_beside_the_eyes_of_the_vive() {
+    let (vive, mirror) = (load("bistro-vive").unwrap(), load("bistro-mirror").unwrap());
+    assert_eq!(mirror.view_names(), ["left", "right", "mirror"]);
+    assert_eq!(mirror.view_set(), ViewSet { count: 3, mirrors: true });
+    assert!(!vive.view_set().mirrors);
+    for frame in [0, 300, 669] {
+        let views = mirror.views(frame, [640, 720]).unwrap();
+        assert_eq!(views[..2], vive.views(frame, [640, 720]).unwrap());
+        let head = mirror.file().frames[frame as usize].head.position;
+        let eye = views[2].eye();
+        assert!((eye - DVec3::new(head.x, 0.04 - head.y, head.z)).length() < 1e-12, "{eye} below {head}");
+        assert!(views[2].world_from_view().determinant() < 0.0);
+        assert!(views[2].frustum.x0 <= views[0].frustum.x0 && views[2].frustum.x1 >= views[1].frustum.x1);
+    }
+}
+
+#[test]
+fn mirrors_move_frame_by_frame_and_broken_ones_are_refused() {
+    let mirror = |rows: &str| {
+        let eye = format!("\"name\": \"e\", \"mirror\": {rows}");
+        small("\"name\": \"e\"", &eye).map(|recording| {
+            let offset = |frame| recording.views(frame, [4, 4]).unwrap()[0].pose.mirror.unwrap().offset;
+            (0..recording.frame_count()).map(offset).collect::<Vec<_>>()
+        })
+    };
+    assert_eq!(mirror("[[0, 1, 0, 7]]").unwrap(), [7.0, 7.0]);
+    assert_eq!(mirror("[[0, 1, 0, 7], [0, 0.6, -0.8, -9]]").unwrap(), [7.0, -9.0]);
+    assert!(
+        small("\"name\": \"e\"", "\"name\": \"e\", \"mirror\": []").unwrap().views(0, [4, 4]).unwrap()[0]
+            .pose
+            .mirror
+            .is_none()
+    );
+    for (rows, words) in [
+        ("[[0, 1, 1, 7]]", ": hmd.eyes[0].mirror[0]: the normal (elements 0 to 2) has length 1.414"),
+        ("[[0, 1, 0, 1e7]]", ": hmd.eyes[0].mirror[0][3]: 10000000 is not within"),
+        ("[[0, 1, 0, 1], [0, 1, 0, 2], [0, 1, 0, 3]]", "hmd.eyes[0].mirror: has 3 rows; give 1, or 2"),
+        ("[[0, 1, 0]]", "hmd.eyes[0].mirror[0]"),
+    ] {
+        let message = mirror(rows).unwrap_err().to_string();
+        assert!(message.contains(words), "'{message}' does not say '{words}'");
+    }
 }
 
 #[test]
@@ -159,6 +208,7 @@ proptest! {
             head: Pose {
                 position: DVec3::new(x, f64::from(y) / 3e6, -x),
                 rotation: DQuat::from_rotation_y(angle) * DQuat::from_rotation_x(0.5 * angle),
+                mirror: None,
             },
             fov,
         }).collect();

@@ -89,8 +89,7 @@ pub fn bench_assign(
     watch: &Watch,
     sink: &mut dyn FnMut(BenchRow) -> Result<()>,
 ) -> Result<()> {
-    let views = inputs.recording.view_names().len();
-    let mut session = Session::new(config, &inputs.scene, views)?;
+    let mut session = Session::new(config, &inputs.scene, inputs.recording.view_set())?;
     session.context.require_timestamps()?;
     for lighting in &bench.lights {
         let mut source = inputs.light_source(&LightsFrom::Rain(*lighting))?;

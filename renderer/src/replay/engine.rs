@@ -231,6 +231,7 @@ impl Engine {
                 },
             },
             targets: &session.targets,
+            mirrored: &this.mirrored,
             clusterings: &self.clusterings,
             clustered: self.method != MethodSpec::AllLights,
             multiview: self.multiview,
@@ -274,6 +275,8 @@ impl Engine {
                 this.views.write((v * size_of_val(&data)) as u64, &[data]);
             }
         }
+        this.mirrored.clear();
+        this.mirrored.extend(plan.views.iter().map(|view| view.pose.mirror.is_some()));
         match self.culling {
             Culling::Cpu => {
                 for (view, list) in plan.views.chunks(1).zip(&mut this.draw_lists) {

@@ -32,7 +32,7 @@ impl<'a> Player<'a> {
     /// # Errors
     /// The device is missing, lacks something, or cannot hold the scene.
     pub fn new(config: &'a Config, inputs: &'a Inputs) -> Result<Self> {
-        let session = Session::new(config, &inputs.scene, inputs.recording.view_names().len())?;
+        let session = Session::new(config, &inputs.scene, inputs.recording.view_set())?;
         Ok(Self { config, inputs, session })
     }
 

@@ -12,6 +12,7 @@ use crate::pass::{FrameTracker, Timestamps};
 use crate::passes::readback::STATE_BYTES;
 use crate::pipelines::{self, COLOR_FORMAT, DEPTH_FORMAT, PipelineStore};
 use crate::scene::Scene;
+use crate::views::ViewSet;
 use crate::vk::{Buffer, Context, DeviceOptions, Image, ImageDesc, Memory, ShaderLibrary};
 use crate::{Error, Result, gpu_interface};
 use ash::vk;
@@ -29,6 +30,8 @@ pub struct Slot {
     pub timestamps: Timestamps,
     /// [`ViewData`] of all views, mapped.
     pub views: Buffer,
+    /// Of each view, whether it sees the world in a mirror.
+    pub mirrored: Vec<bool>,
     /// Each clustering's state, mapped.
     pub states: Buffer,
     /// What each view draws, and all at once, where the host culls.
@@ -67,6 +70,7 @@ impl Slot {
                 uniform,
                 Memory::Upload,
             )?,
+            mirrored: vec![],
             states: Buffer::new(
                 context,
                 "states",
@@ -151,11 +155,12 @@ pub struct Session {
 }
 
 impl Session {
-    /// Opens the device and uploads `scene` for `views` views.
-    pub fn new(config: &Config, scene: &Scene, views: usize) -> Result<Self> {
+    /// Opens the device and uploads `scene` for the views of `view_set`.
+    pub fn new(config: &Config, scene: &Scene, view_set: ViewSet) -> Result<Self> {
+        let views = view_set.count;
         let options = DeviceOptions { device: config.device.clone(), validate: config.validate };
         let context = Context::new(&options)?;
-        pipelines::check_device(&context, config)?;
+        pipelines::check_device(&context, config, view_set)?;
         check_resolution(&context, config.resolution)?;
         check_views(views)?;
         let layouts = Arc::new(Layouts::new(&context)?);
@@ -177,7 +182,7 @@ impl Session {
             batches,
             draws: draw_buffers(&context, views, draw_slots.counts)?,
             draw_slots,
-            store: PipelineStore::new(&context, &layouts, shaders, views),
+            store: PipelineStore::new(&context, &layouts, shaders, view_set),
             layouts,
             tracker: FrameTracker::default(),
             context,

@@ -41,12 +41,13 @@ fn ids(runs: Vec<Run>, drawn: bool) -> Vec<String> {
 
 #[test]
 fn figures_are_drawn_from_what_there_is() {
-    let all = ["6.2", "6.3", "6.4", "6.5", "6.6", "6.7", "6.8", "6.9", "6.10", "A.1"];
+    let all =
+        ["4.7", "6.2", "6.3", "6.4", "6.5", "6.6", "6.7", "6.8", "6.9", "6.10", "A.1", "A.2", "A.3", "A.4"];
     assert_eq!(ids(everything(), true), all);
     assert_eq!(ids(everything(), false), ["4.8", "6.1", "C.1", "C.2", "C.3", "C.4"]);
     let untimed = |name: &str, frame| measured(name, frame).filter(|_| !name.starts_with("gpu_ms"));
     let one = vec![run("indi-persp-64", 1, 1000, untimed)];
-    assert_eq!(ids(one, true), ["6.6", "6.9", "6.10", "A.1"]);
+    assert_eq!(ids(one, true), ["4.7", "6.6", "6.9", "6.10", "A.1", "A.2", "A.3", "A.4"]);
 }
 
 #[test]
@@ -57,7 +58,7 @@ fn scenes_go_to_their_chapter() {
         run.setting.recording = "suntem".into();
     }
     let drawn = ids(runs, true);
-    assert_eq!(drawn[..3], ["A.1", "C.3", "C.4"]);
+    assert_eq!(drawn[..7], ["4.7", "A.1", "A.2", "A.3", "A.4", "C.3", "C.4"]);
     assert!(drawn.contains(&"C-6.5".to_owned()));
 }
 

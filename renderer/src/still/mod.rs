@@ -9,11 +9,13 @@
 //!    └─> camera: depth, clay, pixel_clusters[c], overlay ─> compose ─> PNG, EXR
 //! ```
 
-pub mod camera;
+pub(crate) mod camera;
 mod compose;
 mod onlooker;
 mod record;
 mod shapes;
+
+pub use camera::{Placed, Viewpoint};
 
 use crate::assign::Assigner;
 use crate::config::{Config, Culling};
@@ -132,7 +134,7 @@ pub struct Still {
     pub counts: FrameCounts,
 }
 
-/// Renders the first frame of `config` by `run` and looks at it from the camera called `view` (`None`: the first view).
+/// Renders the first frame of `config` by `run` and looks at it from `viewpoint`.
 ///
 /// # Errors
 /// Bad input, a camera that is not known, something that the method cannot show, and whatever fails on the device.
@@ -140,7 +142,7 @@ pub fn render(
     config: &Config,
     inputs: &Inputs,
     run: &PlannedRun,
-    view: Option<&str>,
+    viewpoint: Viewpoint,
     show: &Show,
 ) -> Result<Still> {
     show.check(&run.method)?;
@@ -148,8 +150,8 @@ pub fn render(
     let plans = plan_frames(config, &inputs.recording, &run.method)?;
     let plan = &plans[0];
     let names = inputs.recording.view_names();
-    let camera = Camera::by_name(view, &names)?;
-    let mut session = Session::new(config, &inputs.scene, names.len())?;
+    let camera = Camera::new(viewpoint, &names)?;
+    let mut session = Session::new(config, &inputs.scene, inputs.recording.view_set())?;
     let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
     let onlooker = Onlooker { config, names: &names, plan, camera, show: *show };
     let still = paint(&onlooker, inputs, &mut session, run)?;

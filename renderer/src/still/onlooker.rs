@@ -62,15 +62,15 @@ impl<'a> Onlooker<'a> {
         shaded: Vec<ViewPixels>,
     ) -> Result<Seen> {
         let pipelines = session.store.debug(&engine::variant(self.config, engine.method(), mode))?;
-        let eye = self.eye(&shaded)?;
+        let eye = self.eye(&shaded, session.reach)?;
         let layers = self.layers(session, engine, (&pipelines, &eye), shaded)?;
         let empty = self.empty_pixels(&eye);
         let (image, pixels) = compose::compose(&self.show, &layers, &self.plan.grids, empty);
         Ok(Seen { image, pixels })
     }
 
-    /// Where the camera is.
-    fn eye(&self, shaded: &[ViewPixels]) -> Result<View> {
+    /// Where the camera is, in a scene that lies within `reach` metres of the origin.
+    fn eye(&self, shaded: &[ViewPixels], reach: f64) -> Result<View> {
         let views = &self.plan.views;
         match self.camera {
             Camera::View(view) => Ok(views[view]),
@@ -79,6 +79,7 @@ impl<'a> Onlooker<'a> {
                 let distances = shaded.iter().flat_map(|view| view.depth.iter().copied());
                 camera::birdseye(views, self.config.resolution, camera::reach(far, distances))
             }
+            Camera::Placed(placed) => placed.view(views, self.config.resolution, reach),
         }
     }
 
@@ -94,8 +95,9 @@ impl<'a> Onlooker<'a> {
         let all: Vec<usize> = (0..self.plan.grids.len().max(1)).collect();
         let (view, lookup, clusterings) = match self.camera {
             Camera::View(view) => (view, 0, vec![if all.len() > 1 { view } else { 0 }]),
-            Camera::BirdsEye => {
+            Camera::BirdsEye | Camera::Placed(_) => {
                 let slot = &mut session.slots[SLOT];
+                slot.mirrored[0] = false;
                 slot.views.write(0, &[view_data(eye, None, self.config.resolution, session.reach)]);
                 slot.draw_lists[0].update(&session.batches, std::slice::from_ref(eye));
                 (0, 1, all)
@@ -137,7 +139,7 @@ impl<'a> Onlooker<'a> {
         }
         let shaded = match self.camera {
             Camera::View(view) => Some(shaded.swap_remove(view).color),
-            Camera::BirdsEye => None,
+            Camera::BirdsEye | Camera::Placed(_) => None,
         };
         Ok(Layers { shaded, clay: color(&clay), overlay: color(&overlay), clusterings, distance })
     }

@@ -50,6 +50,7 @@ impl Features {
             .sampler_anisotropy(self.core.sampler_anisotropy == vk::TRUE)
             .multi_draw_indirect(self.core.multi_draw_indirect == vk::TRUE)
             .draw_indirect_first_instance(self.core.draw_indirect_first_instance == vk::TRUE)
+            .shader_clip_distance(self.core.shader_clip_distance == vk::TRUE)
             .shader_int64(self.core.shader_int64 == vk::TRUE);
         enabled.v11 = enabled
             .v11

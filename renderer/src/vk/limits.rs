@@ -76,6 +76,8 @@ pub struct Limits {
     pub device_local_bytes: u64,
     /// Whether vertex shaders may choose the layer.
     pub shader_output_layer: bool,
+    /// Whether vertex shaders may clip.
+    pub shader_clip_distance: bool,
     /// Whether one pass may draw several views.
     pub multiview: bool,
     /// Views of one multiview pass.
@@ -177,6 +179,7 @@ pub(super) fn read_limits(instance: &ash::Instance, physical: vk::PhysicalDevice
         subgroup_size: v11.subgroup_size,
         device_local_bytes: device_local_bytes(instance, physical),
         shader_output_layer: f12.shader_output_layer == vk::TRUE,
+        shader_clip_distance: core.shader_clip_distance == vk::TRUE,
         multiview: f11.multiview == vk::TRUE,
         max_multiview_views: v11.max_multiview_view_count,
         host_query_reset: f12.host_query_reset == vk::TRUE,

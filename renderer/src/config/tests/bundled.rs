@@ -46,6 +46,13 @@ fn bundled_sweeps_are_the_experiments_of_the_thesis() {
     };
     for file in ["configs/thesis.json", "configs/thesis-street.json"] {
         let names = names(file);
+        // Figures 6.1 and 4.8 show two frames, C.1 and C.2 two of the temple.
+        let config = Config::resolve(Some(&repository(file)), Layer::default()).unwrap();
+        for part in crate::sweep::parts(&config).unwrap() {
+            let temple = part.config.recording.starts_with("suntem");
+            let shown = if temple { "250,300,580,680" } else { "250,300,580" };
+            assert_eq!(part.config.exr, shown.parse().unwrap(), "{file}: {}", part.config.recording);
+        }
         // Nineteen methods in mono and six in stereo, under three lightings, in two scenes.
         assert_eq!(names.len(), (19 + 6) * 3 * 2, "{file}");
         let count = |part: &str| names.iter().filter(|name| name.contains(part)).count();

@@ -33,7 +33,7 @@ pub struct ScopesRow {
 /// # Errors
 /// As [`crate::replay::replay`].
 pub fn bench_scopes(config: &Config, inputs: &Inputs, watch: &Watch) -> Result<Vec<ScopesRow>> {
-    let mut session = Session::new(config, &inputs.scene, inputs.recording.view_names().len())?;
+    let mut session = Session::new(config, &inputs.scene, inputs.recording.view_set())?;
     session.context.require_timestamps()?;
     let runs = planned_runs(config);
     let rows = runs.iter().map(|run| measure(config, inputs, &mut session, run, watch));

@@ -10,7 +10,7 @@ use crate::passes::{assign, depth, readback, scan};
 use crate::rain::{Rain, RainParameters};
 use crate::scene::Scene;
 use crate::scene::procedural::by_name;
-use crate::views::{Pose, View};
+use crate::views::{Pose, View, ViewSet};
 use glam::{DQuat, DVec3};
 
 const PERSP: MethodSpec =
@@ -28,7 +28,8 @@ fn street() -> Scene {
 }
 
 fn view() -> View {
-    let pose = Pose { position: DVec3::new(1.0, 2.0, 3.0), rotation: DQuat::from_rotation_y(0.7) };
+    let pose =
+        Pose { position: DVec3::new(1.0, 2.0, 3.0), rotation: DQuat::from_rotation_y(0.7), mirror: None };
     View { pose, frustum: Frustum::from_fov(1.3, RESOLUTION, 0.4, 100.0).unwrap() }
 }
 
@@ -77,7 +78,7 @@ impl Bench {
         lights: &[PointLight],
         capacities: Capacities,
     ) -> Self {
-        let mut session = Session::new(config, scene, 1).unwrap();
+        let mut session = Session::new(config, scene, ViewSet { count: 1, mirrors: false }).unwrap();
         let words = grid.cluster_count().div_ceil(32);
         let plan = FramePlan { frame: 0, views: vec![view()], grids: vec![grid] };
         let plans = std::slice::from_ref(&plan);
@@ -159,6 +160,7 @@ impl Bench {
 
 mod assign_equality;
 mod cull;
+mod list_twins;
 mod sphere_tests;
 
 /// A small deterministic generator; quality does not matter here.

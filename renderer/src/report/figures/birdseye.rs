@@ -1,6 +1,6 @@
 //! How clusters lie (4.8): what the camera sees, and the same from above.
 
-use super::pictures::{nearest, order, shown};
+use super::pictures::{Kind, nearest, order, shown};
 use crate::Result;
 use crate::report::chart::{Chart, Plot};
 use crate::report::results::{Picture, ResultSet, Run, Setting, is_tuned, method_name};
@@ -35,7 +35,8 @@ fn pair(run: &Run, frame: u32) -> Result<[Option<Plot>; 2]> {
     let picture = run.pictures.iter().find(|picture| picture.frame == frame);
     let plot = |path: fn(&Picture) -> Option<&std::path::PathBuf>, seen: &str| {
         let Some(path) = picture.and_then(path) else { return Ok(None) };
-        shown(path, frame, format!("Clusters of frame {frame} by {}, {seen}", run.method), false).map(Some)
+        shown(path, frame, format!("Clusters of frame {frame} by {}, {seen}", run.method), Kind::Drawing)
+            .map(Some)
     };
     Ok([
         plot(|picture| picture.clusters.as_ref(), "as the camera sees them")?,

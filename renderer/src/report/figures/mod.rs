@@ -1,9 +1,12 @@
-//! The figures of the thesis (Gelderen chapter 6, appendices A and C), each from whatever data there are.
+//! The figures of the thesis (Gelderen chapters 4 and 6, appendices A and C), each from whatever data there are.
 
 mod attenuation;
 mod birdseye;
 mod breakdown;
+mod computed;
 mod distribution;
+mod enclosing;
+mod falloff;
 mod over_time;
 mod pictures;
 
@@ -52,11 +55,13 @@ struct Drawn<'a> {
 pub fn all(set: &ResultSet) -> Result<Vec<Figure>> {
     let street = Scene { set, sun_temple: false };
     let temple = Scene { set, sun_temple: true };
-    let mut figures = street.clusters("4.8", &[300, 580])?;
+    let mut figures = vec![enclosing::figure()?];
+    figures.extend(street.clusters("4.8", &[300, 580])?);
     figures.extend(street.pictures("6.1", "Frames of the replay", &[300, 580])?);
     figures.extend(street.sweeps(&[(Sweep::Persp, "6.2"), (Sweep::Ortho, "6.3"), (Sweep::Displ, "6.4")]));
     figures.extend(street.comparisons(["6.5", "6.6", "6.7", "6.8", "6.9", "6.10"]));
     figures.push(attenuation::figure());
+    figures.extend(falloff::figures()?);
     figures.extend(temple.pictures("C.1", "A frame of the Sun Temple replay", &[250])?);
     figures.extend(temple.pictures("C.2", "A later frame of the Sun Temple replay", &[680])?);
     figures.extend(temple.sweeps(&[(Sweep::Ortho, "C.3"), (Sweep::Persp, "C.4")]));

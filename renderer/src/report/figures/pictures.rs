@@ -96,7 +96,7 @@ fn gallery(runs: &[&Run], lighting: &LightingName, frames: &[u32]) -> Result<Cha
             let picture = run.pictures.iter().find(|picture| picture.frame == frame);
             let lights = picture.and_then(|picture| picture.lights.as_deref());
             let alt = format!("Lights per cluster in frame {frame} by {}", run.method);
-            chart.panels.push(lights.map(|path| shown(path, frame, alt, false)).transpose()?);
+            chart.panels.push(lights.map(|path| shown(path, frame, alt, Kind::Drawing)).transpose()?);
         }
     }
     Ok(chart)
@@ -117,7 +117,7 @@ fn rendered(runs: &[&Run], lighting: &LightingName, frame: u32) -> Result<Option
         .find_map(|run| Some((run, run.pictures.iter().find(|picture| picture.frame == frame)?)));
     let Some((run, Picture { image, .. })) = found else { return Ok(None) };
     let alt = format!("Frame {frame} of {} under {}", run.setting.scene, lighting.label);
-    shown(image, frame, alt, true).map(Some)
+    shown(image, frame, alt, Kind::Photo).map(Some)
 }
 
 /// Of the frames that have pictures, those nearest to the wanted ones, each once.
@@ -131,27 +131,40 @@ pub fn nearest(wanted: &[u32], runs: &[&Run]) -> Vec<u32> {
     found
 }
 
-/// An image file, made as small as a page needs; a photo may lose a little.
-pub fn shown(path: &Path, frame: u32, alt: String, photo: bool) -> Result<Plot> {
+/// What becomes of a picture's colours on the page.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// They may lose a little.
+    Photo,
+    /// They stay as they are.
+    Drawing,
+}
+
+/// An image file, made as small as a page needs.
+pub fn shown(path: &Path, frame: u32, alt: String, kind: Kind) -> Result<Plot> {
     let cannot = |error: image::ImageError| Error::file(path, format!("cannot be read: {error}"));
     let image = image::open(path).map_err(cannot)?.into_rgb8();
-    let image = fit(image, if photo { FilterType::Triangle } else { FilterType::Nearest });
+    let filter = if kind == Kind::Photo { FilterType::Triangle } else { FilterType::Nearest };
+    encoded(&fit(image, filter), kind, &path.display().to_string(), (frame, alt))
+}
+
+/// An image as a page holds it; `file` is where it came from, for the CSV.
+///
+/// # Errors
+/// It cannot be encoded.
+pub fn encoded(image: &RgbImage, kind: Kind, file: &str, (frame, alt): (u32, String)) -> Result<Plot> {
     let (width, height) = image.dimensions();
     let mut bytes = Cursor::new(vec![]);
-    let kind = if photo {
-        image.write_with_encoder(JpegEncoder::new_with_quality(&mut bytes, 88)).map_err(cannot)?;
-        "image/jpeg"
-    } else {
-        image.write_to(&mut bytes, ImageFormat::Png).map_err(cannot)?;
-        "image/png"
+    let (written, media) = match kind {
+        Kind::Photo => {
+            let encoder = JpegEncoder::new_with_quality(&mut bytes, 88);
+            (image.write_with_encoder(encoder), "image/jpeg")
+        }
+        Kind::Drawing => (image.write_to(&mut bytes, ImageFormat::Png), "image/png"),
     };
-    Ok(Plot::Picture(Shown {
-        uri: data_uri(kind, bytes.get_ref()),
-        size: [width, height],
-        alt,
-        file: path.display().to_string(),
-        frame,
-    }))
+    written.map_err(|error| Error::Internal(format!("{file}: cannot be encoded for the page: {error}")))?;
+    let uri = data_uri(media, bytes.get_ref());
+    Ok(Plot::Picture(Shown { uri, size: [width, height], alt, file: file.to_owned(), frame }))
 }
 
 fn fit(image: RgbImage, filter: FilterType) -> RgbImage {

@@ -5,6 +5,7 @@ use crate::culling::WorldBox;
 use crate::draw_slots::SlotOrder;
 use crate::gpu_interface::DrawCommand;
 use crate::passes::cull;
+use crate::views::Mirror;
 
 /// How close to a plane f32 may decide otherwise, metres: the planes' slack is below it.
 const EPSILON: f64 = 1e-3;
@@ -12,11 +13,15 @@ const EPSILON: f64 = 1e-3;
 /// Cameras inside, beside and outside the scene, some with little of it before them.
 fn views() -> Vec<View> {
     let place = |x: f64, z: f64, yaw: f64, fov: f64| {
-        let pose = Pose { position: DVec3::new(x, 2.0, z), rotation: DQuat::from_rotation_y(yaw) };
+        let pose =
+            Pose { position: DVec3::new(x, 2.0, z), rotation: DQuat::from_rotation_y(yaw), mirror: None };
         View { pose, frustum: Frustum::from_fov(fov, RESOLUTION, 0.4, 60.0).unwrap() }
     };
+    let mut reflected = place(1.0, 3.0, 0.7, 1.3);
+    reflected.pose.mirror = Some(Mirror { normal: DVec3::new(0.6, 0.0, 0.8), offset: -12.0 });
     vec![
         place(1.0, 3.0, 0.7, 1.3),
+        reflected,
         place(-4.0, -20.0, 3.0, 0.3),
         place(200.0, 0.0, 1.6, 1.0),
         place(-9.0, 9.0, 0.0, 2.0),

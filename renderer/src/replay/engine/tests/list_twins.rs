@@ -1,0 +1,296 @@
+//! Each step of hierarchy and scatter against its twin, which takes what the step before left on the device.
+
+use super::assign_equality::random_lights;
+use super::*;
+use crate::assign::{sort_passes, tree_depth};
+use crate::config::{Assign, Test};
+use crate::cpu::{Candidate, CellRange, Culled, FoundLists, Visible};
+use crate::geometry::SphereTest;
+use crate::gpu_interface::{BLOCK_WORDS, COUNTER_COUNT, Counter, GridData, TREE_WIDTH};
+use crate::passes::{cull_lights, hierarchy, lights as light_upload};
+use std::mem::offset_of;
+
+/// How small a margin is too close to call, metres and cells: f32 is good for a tenth of it here.
+const EPSILON: f64 = 2e-3;
+
+/// A device that has culled the lights of a case.
+struct Culling {
+    bench: Bench,
+    grid: Grid,
+    visible: Vec<u32>,
+    test: SphereTest,
+    lights: u32,
+    /// All lights in clustering space.
+    spheres: Vec<[f32; 4]>,
+}
+
+impl Culling {
+    fn new(assign: Assign, (method, grid): (MethodSpec, Grid), test: &str, lights: &[PointLight]) -> Self {
+        let clusters = grid.cluster_count();
+        let bits = random_bits(clusters, 7, 11);
+        let visible = cpu::compact(&fragments_of(&bits, clusters)).visible;
+        let room = Capacities { visible_clusters: clusters as u32, light_indices: 6_000_000 };
+        let test: Test = test.parse().unwrap();
+        let config = Config { assign: vec![assign], test: vec![test], ..config() };
+        let mut bench = Bench::with_config(&config, method, grid, lights, room);
+        bench.compact(&bits);
+        bench.run(|r, frame| {
+            light_upload::record(r, frame);
+            assign::transform_lights(r, frame, 0);
+        });
+        let spheres = bench.spheres(|c| &c.buffers.light_spheres, lights.len());
+        bench.run(|r, frame| cull_lights::cull_lights(r, frame, 0));
+        Self { bench, grid, visible, test: test.of(&method), lights: lights.len() as u32, spheres }
+    }
+
+    fn visible(&self) -> Visible<'_> {
+        Visible { grid: &self.grid, clusters: &self.visible }
+    }
+
+    fn state(&mut self) -> ClusteringState {
+        self.bench.run(readback::states);
+        self.bench.engine.states(&self.bench.session, 0)[0]
+    }
+
+    /// What the device has as candidates, and as their spheres.
+    fn candidates(&mut self) -> (Vec<Candidate>, Vec<[f32; 4]>) {
+        let count = self.state().candidates as usize;
+        let words = self.bench.download(|c| &c.buffers.candidates, 4 * count.max(1));
+        let unpacked = words
+            .chunks_exact(4)
+            .take(count)
+            .map(|w| Candidate { light: w[0], cells: unpack([w[1], w[2], w[3]]) });
+        let unpacked = unpacked.collect();
+        (unpacked, self.bench.spheres(|c| &c.buffers.light_spheres, count))
+    }
+
+    /// Counts lights, and gives how many tests that took.
+    fn count(&mut self) -> u64 {
+        self.bench.upload(|c| &c.buffers.counters, &[0; 2 * COUNTER_COUNT]);
+        self.bench.run(|r, frame| assign::count_lights(r, frame, 0));
+        let slot = 2 * Counter::IntersectionTests as usize;
+        let words = self.bench.download(|c| &c.buffers.counters, slot + 2);
+        u64::from(words[slot]) | u64::from(words[slot + 1]) << 32
+    }
+
+    /// Finishes the lists, and gives them.
+    fn finish(&mut self) -> Lists {
+        self.bench.run(|r, frame| {
+            scan::light_offsets(r, frame, 0);
+            assign::assign_lights(r, frame, 0);
+        });
+        let state = self.state();
+        Lists {
+            offsets: self.bench.download(|c| &c.buffers.list_offsets, state.visible as usize + 1),
+            indices: self.bench.download(|c| &c.buffers.light_indices, state.index_total.max(1) as usize),
+        }
+    }
+}
+
+impl Bench {
+    fn spheres(&mut self, pick: impl Fn(&Clustering) -> &Buffer, count: usize) -> Vec<[f32; 4]> {
+        let words = self.download(pick, 4 * count.max(1));
+        words.chunks_exact(4).take(count).map(|w| std::array::from_fn(|i| f32::from_bits(w[i]))).collect()
+    }
+}
+
+fn unpack(words: [u32; 3]) -> CellRange {
+    CellRange { low: words.map(|word| word & 0xFFFF), high: words.map(|word| word >> 16) }
+}
+
+/// Grids of both spaces and lights of many sizes.
+fn cases() -> Vec<((MethodSpec, Grid), &'static str, Vec<PointLight>)> {
+    let mixed = || random_lights(3001, 4, 40.0, |u| 0.02 * 10_000f32.powf(u * u));
+    let persp = (PERSP, frustum_grid([13, 9, 21]));
+    let ortho = (ORTHO, box_grid([17, 13, 11]));
+    vec![
+        (persp, "hs", mixed()),
+        (persp, "exact", lights(1000)),
+        (persp, "sat-n", lights(300)),
+        (ortho, "box", mixed()),
+        (ortho, "hs", random_lights(9, 2, 20.0, |_| 8.0)),
+        (ortho, "box", random_lights(20_001, 6, 60.0, |u| 0.1 + 3.0 * u)),
+        ((PERSP, frustum_grid([40, 33, 70])), "hs", lights(4097)),
+    ]
+}
+
+#[test]
+fn culled_lights_equal_their_twin() {
+    for (case, (method, test, lights)) in cases().into_iter().enumerate() {
+        let mut culling = Culling::new(Assign::Scatter, method, test, &lights);
+        let blocks = cpu::mark_blocks(&culling.grid, &culling.visible);
+        let words = culling.bench.download(|c| &c.buffers.block_bits, BLOCK_WORDS as usize);
+        assert!(words == blocks.words(), "case {case}: other blocks");
+        let (device, spheres) = culling.candidates();
+        let twin = cpu::cull_lights(&culling.visible(), &culling.spheres, culling.test, EPSILON);
+        let Culled { candidates, borderline } = twin;
+        let sure = |list: &[Candidate]| -> Vec<Candidate> {
+            list.iter().filter(|c| borderline.binary_search(&c.light).is_err()).copied().collect()
+        };
+        assert_eq!(sure(&device), sure(&candidates), "case {case}");
+        for (candidate, sphere) in device.iter().zip(&spheres) {
+            assert_eq!(sphere, &culling.spheres[candidate.light as usize], "case {case}");
+        }
+        assert!(device.is_sorted_by_key(|candidate| candidate.light));
+        assert!(borderline.len() * 10 < lights.len().max(60), "case {case}: {} too close", borderline.len());
+        assert!(!device.is_empty(), "case {case} keeps nothing");
+    }
+}
+
+#[test]
+fn the_hierarchy_equals_its_twin() {
+    for (case, (method, test, lights)) in cases().into_iter().enumerate() {
+        let mut culling = Culling::new(Assign::Hierarchy, method, test, &lights);
+        let (candidates, spheres) = culling.candidates();
+        culling.bench.run(|r, frame| hierarchy::build_hierarchy(r, frame, 0));
+        let order = sorted_as_their_twin(&mut culling, &spheres);
+        let sorted: Vec<[f32; 4]> = order.iter().map(|&number| spheres[number as usize]).collect();
+        assert!(culling.bench.spheres(|c| &c.buffers.tree_spheres, sorted.len()) == sorted, "case {case}");
+        assert_eq!(culling.bench.download(|c| &c.buffers.tree_lights, order.len()), order, "case {case}");
+        let tree = cpu::build_nodes(sorted, culling.lights);
+        nodes_equal(&mut culling, &tree);
+        let descent = cpu::descend(&culling.visible(), &tree, culling.test, EPSILON);
+        let tests = culling.count();
+        assert!(tests.abs_diff(descent.tests) <= descent.borderline_tests, "case {case}: {tests} tests");
+        assert!(descent.borderline_tests * 20 < descent.tests, "case {case}");
+        let light_at = |place: u32| candidates[order[place as usize] as usize].light;
+        lists_equal(&culling.finish(), &descent.lists, light_at);
+    }
+}
+
+/// Checks keys and order, and gives the order: numbers of candidates.
+fn sorted_as_their_twin(culling: &mut Culling, spheres: &[[f32; 4]]) -> Vec<u32> {
+    let twin = cpu::keys(&culling.grid, spheres, culling.lights, 0.02);
+    let half = ((sort_passes(culling.lights) - 1) & 1) * culling.lights;
+    let words = culling.bench.download(|c| &c.buffers.sort_items, 2 * (half as usize + spheres.len()));
+    let items: Vec<(u32, u32)> = words[2 * half as usize..].chunks_exact(2).map(|w| (w[0], w[1])).collect();
+    let mut keys = vec![u32::MAX; spheres.len()];
+    for &(key, number) in &items {
+        keys[number as usize] = key;
+    }
+    for (key, twin) in keys.iter().zip(&twin) {
+        assert!(twin.borderline || *key == twin.key, "key {key:b}, not {:b}", twin.key);
+    }
+    let close = twin.iter().filter(|key| key.borderline).count();
+    assert!(close * 5 < spheres.len().max(25), "{close} keys are too close to call");
+    let order: Vec<u32> = items.into_iter().map(|(_, number)| number).collect();
+    assert_eq!(order, cpu::sorted(&keys));
+    order
+}
+
+fn nodes_equal(culling: &mut Culling, tree: &cpu::Tree) {
+    let depths = tree_depth(culling.lights);
+    let first = |depth: u32| (TREE_WIDTH.pow(depth) - 1) / (TREE_WIDTH - 1);
+    let last = first(depths - 1) as usize + tree.depths[depths as usize - 2].len();
+    let words = culling.bench.download(|c| &c.buffers.light_nodes, 8 * last);
+    for (depth, nodes) in (1..depths).zip(&tree.depths) {
+        for (place, node) in nodes.iter().enumerate() {
+            let at = 8 * (first(depth) as usize + place);
+            let device: Vec<f32> = words[at..at + 7].iter().map(|&word| f32::from_bits(word)).collect();
+            let twin = [&node.centre.to_array()[..], &[node.radius], &node.half_extent.to_array()].concat();
+            // A multiplication and the addition after it may be rounded once or twice.
+            let equal = |(a, b): (&f32, &f32)| (a - b).abs() <= 1e-6 * b.abs();
+            assert!(device.iter().zip(&twin).all(equal), "depth {depth}, node {place}: {device:?}, {twin:?}");
+        }
+    }
+}
+
+/// Lists of lights against found numbers, which `light_of` turns into lights.
+fn lists_equal(device: &Lists, twin: &FoundLists, light_of: impl Fn(u32) -> u32) {
+    let mut borderline = 0;
+    for (position, (numbers, close)) in twin.lights.iter().zip(&twin.borderline).enumerate() {
+        let close = cpu::sort_lists(close, &light_of);
+        let sure = |lights: &[u32]| -> Vec<u32> {
+            lights.iter().copied().filter(|light| close.binary_search(light).is_err()).collect()
+        };
+        assert_eq!(sure(device.of(position)), sure(&cpu::sort_lists(numbers, &light_of)), "list {position}");
+        borderline += close.len();
+    }
+    assert_eq!(device.offsets.len(), twin.lights.len() + 1);
+    assert!(borderline * 50 < device.indices.len().max(50), "{borderline} pairs are too close to call");
+}
+
+#[test]
+fn scattering_equals_its_twin() {
+    for (case, (method, test, lights)) in cases().into_iter().enumerate() {
+        let mut culling = Culling::new(Assign::Scatter, method, test, &lights);
+        let (candidates, spheres) = culling.candidates();
+        let tests = culling.count();
+        let state = culling.state();
+        let groups = cpu::scatter_groups(&culling.visible(), &candidates);
+        let words = culling.bench.download(|c| &c.buffers.light_nodes, 6 * groups.len());
+        let tiles: u32 = groups.iter().map(cpu::Group::tiles).sum();
+        let tile_groups = culling.bench.download(|c| &c.buffers.digit_counts, tiles.max(1) as usize);
+        let group_lights = culling.bench.download(|c| &c.buffers.tree_lights, 64 * tiles.max(1) as usize);
+        assert_eq!((state.tiles, state.listed), (tiles, 1), "case {case}");
+        for (number, (group, w)) in (0u32..).zip(groups.iter().zip(words.chunks_exact(6))) {
+            assert_eq!(unpack([w[0], w[1], w[2]]), group.cells, "case {case}, group {number}");
+            let count = group.candidates.len() as u32;
+            assert_eq!(w[3..], [count, count, group.first_tile], "case {case}, group {number}");
+            let of_group = group.first_tile as usize..(group.first_tile + group.tiles()) as usize;
+            assert!(tile_groups[of_group].iter().all(|&of| of == number), "case {case}");
+            let first = 64 * group.first_tile as usize;
+            let listed = &group_lights[first..first + count as usize];
+            assert_eq!(cpu::sort_lists(listed, |n| n), group.candidates, "case {case}, group {number}");
+        }
+        let (lists, twin_tests) = cpu::scatter(&culling.visible(), &groups, &spheres, culling.test, EPSILON);
+        assert_eq!(tests, twin_tests, "case {case}");
+        lists_equal(&culling.finish(), &lists, |number| candidates[number as usize].light);
+    }
+}
+
+#[test]
+fn lists_are_read_off_their_bits_as_by_their_twin() {
+    for assign in [Assign::Hierarchy, Assign::Scatter] {
+        let (method, test, lights) = cases().remove(0);
+        let mut culling = Culling::new(assign, method, test, &lights);
+        let (candidates, _) = culling.candidates();
+        if assign == Assign::Hierarchy {
+            culling.bench.run(|r, frame| hierarchy::build_hierarchy(r, frame, 0));
+        }
+        culling.count();
+        let state = culling.state();
+        assert_eq!((state.masked, state.mask_words), (1, state.candidates.div_ceil(32)));
+        let words = (state.visible * state.mask_words) as usize;
+        let masks = culling.bench.download(|c| &c.buffers.light_masks, words);
+        let twin = cpu::read_masks(&masks, state.mask_words as usize);
+        let lengths = culling.bench.download(|c| &c.buffers.list_lengths, twin.len());
+        assert_eq!(lengths, twin.iter().map(|list| list.len() as u32).collect::<Vec<_>>());
+        let lists = culling.finish();
+        assert_eq!(lists.offsets, cpu::scan(&lengths));
+        for (position, numbers) in twin.iter().enumerate() {
+            let lights: Vec<u32> = numbers.iter().map(|&n| candidates[n as usize].light).collect();
+            assert_eq!(lists.of(position), lights);
+        }
+        assert!(lists.indices.len() > 1000);
+    }
+}
+
+#[test]
+fn lists_in_any_order_are_sorted_as_by_their_twin() {
+    let (method, test, lights) = cases().remove(0);
+    let mut culling = Culling::new(Assign::Scatter, method, test, &lights);
+    culling.bench.engine.clusterings[0].grids[0].write(offset_of!(GridData, mask_capacity) as u64, &[0u32]);
+    culling.bench.run(|r, frame| cull_lights::cull_lights(r, frame, 0));
+    let (candidates, _) = culling.candidates();
+    culling.count();
+    let state = culling.state();
+    assert_eq!(state.masked, 0);
+    culling.bench.run(|r, frame| {
+        scan::light_offsets(r, frame, 0);
+        assign::write_lists(r, frame, 0);
+    });
+    let total = culling.state().index_total as usize;
+    let offsets = culling.bench.download(|c| &c.buffers.list_offsets, state.visible as usize + 1);
+    let unsorted = Lists {
+        indices: culling.bench.download(|c| &c.buffers.light_indices, total),
+        offsets: offsets.clone(),
+    };
+    culling.bench.run(|r, frame| assign::sort_lists(r, frame, 0));
+    let sorted = Lists { indices: culling.bench.download(|c| &c.buffers.light_indices, total), offsets };
+    for list in 0..state.visible as usize {
+        let twin = cpu::sort_lists(unsorted.of(list), |number| candidates[number as usize].light);
+        assert_eq!(sorted.of(list), twin, "list {list}");
+    }
+    assert!(total > 1000);
+}
