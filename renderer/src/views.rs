@@ -39,6 +39,11 @@ impl Pose {
         self.rotation * local + self.position
     }
 
+    /// The same pose in a world whose origin lies at `origin` (metres) of this one.
+    pub fn relative_to(&self, origin: DVec3) -> Self {
+        Self { position: self.position - origin, rotation: self.rotation }
+    }
+
     /// A world point in this pose's own space.
     pub fn inverse_transform_point(&self, world: DVec3) -> DVec3 {
         self.rotation.conjugate() * (world - self.position)
@@ -100,6 +105,11 @@ impl View {
     /// Clip from world.
     pub fn clip_from_world(&self) -> DMat4 {
         self.clip_from_view() * self.view_from_world()
+    }
+
+    /// The same view in a world whose origin lies at `origin` (metres) of this one.
+    pub fn relative_to(&self, origin: DVec3) -> Self {
+        Self { pose: self.pose.relative_to(origin), frustum: self.frustum }
     }
 
     /// Checks pose and frustum.

@@ -46,6 +46,11 @@ pub fn cell_at(linear: u32, [dx, dy, _]: [u32; 3]) -> [u32; 3] {
 }
 
 impl Grid {
+    /// The same grid in a world whose origin lies at `origin` (metres) of this one.
+    pub fn relative_to(&self, origin: DVec3) -> Self {
+        Self { pose: self.pose.relative_to(origin), ..*self }
+    }
+
     /// Dx*Dy*Dz.
     pub fn cluster_count(&self) -> u64 {
         self.dimensions.into_iter().map(u64::from).product()

@@ -20,6 +20,7 @@ use crate::passes::readback::STATE_BYTES;
 use crate::pipelines::{Pipelines, Variant};
 use crate::vk::{Buffer, Context, Memory};
 use ash::vk;
+use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
 /// The device's part of a run in one mode: temporal (nothing counted) or atemporal (all counted).
@@ -193,7 +194,7 @@ impl Engine {
         lights: &[PointLight],
         extend: (&mut Commands, &mut Commands),
     ) -> Result<()> {
-        self.write_host_data(session, slot, plan, lights);
+        self.write_host_data(session, slot, plan, lights)?;
         session.slots[slot].begin()?;
         self.record(session, slot, |r, frame| {
             (extend.0)(r, frame);
@@ -261,16 +262,22 @@ impl Engine {
         slot: usize,
         plan: &FramePlan,
         lights: &[PointLight],
-    ) {
+    ) -> Result<()> {
+        let origin = plan.origin();
+        if session.scene.origin != origin {
+            session.scene.move_origin(&session.context, origin)?;
+        }
         let this = &mut session.slots[slot];
         for (c, clustering) in self.clusterings.iter_mut().enumerate() {
-            let grid = plan.grids.get(c);
+            let grid = plan.grids.get(c).map(|grid| grid.relative_to(origin));
             let count = lights.len() as u32;
-            let data = grid.map_or_else(|| gridless_data(count), |g| grid_data(g, count, &self.sizes));
+            let data =
+                grid.as_ref().map_or_else(|| gridless_data(count), |g| grid_data(g, count, &self.sizes));
             clustering.word_count = data.word_count;
             clustering.grids[slot].write(0, &[data]);
             for v in clustering.views.clone() {
-                let data = view_data(&plan.views[v], grid, self.resolution, session.reach);
+                let view = plan.views[v].relative_to(origin);
+                let data = view_data(&view, grid.as_ref(), self.resolution, session.scene.reach);
                 this.views.write((v * size_of_val(&data)) as u64, &[data]);
             }
         }
@@ -293,8 +300,9 @@ impl Engine {
             }
         }
         self.staged.clear();
-        self.staged.extend(lights.iter().map(light_data));
+        self.staged.extend(lights.iter().map(|light| light_data(light, origin)));
         self.staging[slot].write(0, &self.staged);
+        Ok(())
     }
 
     /// What the device found out in the frame that ended in `slot`.
@@ -351,9 +359,10 @@ fn with_margin(needed: u32, most: u32) -> u32 {
     needed.saturating_add(needed / GROWTH_MARGIN).min(most).max(needed)
 }
 
-fn light_data(light: &PointLight) -> LightData {
+/// A light as shaders read it in a frame with this origin.
+fn light_data(light: &PointLight, origin: DVec3) -> LightData {
     LightData {
-        position: light.position,
+        position: (Vec3::from(light.position).as_dvec3() - origin).as_vec3().to_array(),
         r1: light.r1,
         tint: light.tint,
         intensity: light.intensity,

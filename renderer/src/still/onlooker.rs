@@ -7,8 +7,10 @@ use super::{Base, Show, shapes};
 use crate::Result;
 use crate::clustering::view_data;
 use crate::config::Config;
+use crate::geometry::Grid;
 use crate::gpu_interface::PixelData;
 use crate::measure::ViewPixels;
+use crate::passes::lines::Line;
 use crate::passes::pixel_maps;
 use crate::pipelines::DebugPipelines;
 use crate::replay::FramePlan;
@@ -18,6 +20,7 @@ use crate::replay::session::Session;
 use crate::views::View;
 use crate::vk::{Buffer, Memory};
 use ash::vk;
+use glam::DVec3;
 use half::f16;
 use image::RgbImage;
 
@@ -91,18 +94,20 @@ impl<'a> Onlooker<'a> {
         mut shaded: Vec<ViewPixels>,
     ) -> Result<Layers> {
         let clustered = !self.plan.grids.is_empty();
+        let origin = self.plan.origin();
         let all: Vec<usize> = (0..self.plan.grids.len().max(1)).collect();
         let (view, lookup, clusterings) = match self.camera {
             Camera::View(view) => (view, 0, vec![if all.len() > 1 { view } else { 0 }]),
             Camera::BirdsEye => {
                 let slot = &mut session.slots[SLOT];
-                slot.views.write(0, &[view_data(eye, None, self.config.resolution, session.reach)]);
+                let near = eye.relative_to(origin);
+                let data = view_data(&near, None, self.config.resolution, session.scene.reach);
+                slot.views.write(0, &[data]);
                 slot.draw_lists[0].update(&session.batches, std::slice::from_ref(eye));
                 (0, 1, all)
             }
         };
-        let lines =
-            if self.show.frusta { shapes::frusta(&self.plan.views, &self.plan.grids) } else { vec![] };
+        let lines = if self.show.frusta { self.frusta(origin) } else { vec![] };
         let line_buffer = (!lines.is_empty())
             .then(|| {
                 Buffer::with_data(&session.context, "lines", vk::BufferUsageFlags::VERTEX_BUFFER, &lines)
@@ -140,6 +145,13 @@ impl<'a> Onlooker<'a> {
             Camera::BirdsEye => None,
         };
         Ok(Layers { shaded, clay: color(&clay), overlay: color(&overlay), clusterings, distance })
+    }
+
+    /// The frame's frusta and boxes, relative to its origin.
+    fn frusta(&self, origin: DVec3) -> Vec<Line> {
+        let views: Vec<View> = self.plan.views.iter().map(|view| view.relative_to(origin)).collect();
+        let grids: Vec<Grid> = self.plan.grids.iter().map(|grid| grid.relative_to(origin)).collect();
+        shapes::frusta(&views, &grids)
     }
 
     fn pixel_count(&self) -> usize {

@@ -21,7 +21,7 @@ pub(super) struct Placed {
 pub(super) struct PlacedMesh {
     /// Into the document's meshes; checked.
     pub mesh: usize,
-    pub world_from_object: Mat4,
+    pub world_from_object: DMat4,
 }
 
 /// Walks the default scene: the one the file names, else its first, else all nodes without a parent.
@@ -80,8 +80,8 @@ struct Walk<'a> {
 
 impl Walk<'_> {
     fn visit(&mut self, node: &json::Node, world_from_node: DMat4) -> Result<(), String> {
-        let world_from_object = world_from_node.as_mat4();
-        if !world_from_object.is_finite() {
+        let world_from_object = world_from_node;
+        if !world_from_object.as_mat4().is_finite() {
             return Err("has a transform that is not finite".into());
         }
         self.skinned += u32::from(node.skin.is_some());
