@@ -139,6 +139,19 @@ impl Grid {
         }
     }
 
+    /// Replaces `planes` by the depths between the slices of a perspective grid, metres: near, Dz - 1 between, far. Empty
+    /// for orthographic grids.
+    ///
+    /// Slice k holds what is not nearer than plane k and nearer than plane k + 1, compared in f32 on the device. They
+    /// ascend strictly, see [`super::plan`].
+    pub fn slice_planes(&self, planes: &mut Vec<f32>) {
+        planes.clear();
+        if let ClusterSpace::Perspective { frustum, ratio } = self.space {
+            let depth = |slice: u32| frustum.near() * (f64::from(slice) * ratio.ln_1p()).exp();
+            planes.extend((0..=self.dimensions[2]).map(|slice| depth(slice) as f32));
+        }
+    }
+
     fn dimensions_f64(&self) -> DVec3 {
         DVec3::from_array(self.dimensions.map(f64::from))
     }

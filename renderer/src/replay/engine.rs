@@ -38,6 +38,7 @@ pub struct Engine {
     lights: Buffer,
     staging: [Buffer; SLOTS],
     staged: Vec<LightData>,
+    slice_planes: Vec<f32>,
     clusterings: Vec<Clustering>,
     /// Whether frames are shaded; true at first.
     pub shaded: bool,
@@ -86,6 +87,7 @@ fn sizes(config: &Config, method: MethodSpec, plans: &[FramePlan], mode: &Mode) 
     let none = Capacities { visible_clusters: 0, light_indices: 0 };
     ClusteringSizes {
         clusters: plans.iter().flat_map(|p| &p.grids).map(|g| g.cluster_count()).max().unwrap_or(0),
+        slice_planes: plans.iter().flat_map(|p| &p.grids).map(|g| g.dimensions[2] + 1).max().unwrap_or(0),
         lights: mode.lights,
         capacities: if method == MethodSpec::AllLights { none } else { mode.capacities },
         assigner: assigner(method, mode),
@@ -130,6 +132,7 @@ impl Engine {
             pipelines: session.store.pipelines(&variant(config, method, &mode))?,
             sizes,
             staged: Vec::with_capacity(mode.lights as usize),
+            slice_planes: vec![],
             clusterings: vec![],
             shaded: true,
             tree: ScopeTree::default(),
@@ -267,20 +270,10 @@ impl Engine {
         if session.scene.origin != origin {
             session.scene.move_origin(&session.context, origin)?;
         }
-        let this = &mut session.slots[slot];
-        for (c, clustering) in self.clusterings.iter_mut().enumerate() {
-            let grid = plan.grids.get(c).map(|grid| grid.relative_to(origin));
-            let count = lights.len() as u32;
-            let data =
-                grid.as_ref().map_or_else(|| gridless_data(count), |g| grid_data(g, count, &self.sizes));
-            clustering.word_count = data.word_count;
-            clustering.grids[slot].write(0, &[data]);
-            for v in clustering.views.clone() {
-                let view = plan.views[v].relative_to(origin);
-                let data = view_data(&view, grid.as_ref(), self.resolution, session.scene.reach);
-                this.views.write((v * size_of_val(&data)) as u64, &[data]);
-            }
+        for clustering in 0..self.clusterings.len() {
+            self.write_clustering(session, slot, plan, clustering, lights.len() as u32);
         }
+        let this = &mut session.slots[slot];
         match self.culling {
             Culling::Cpu => {
                 for (view, list) in plan.views.chunks(1).zip(&mut this.draw_lists) {
@@ -303,6 +296,36 @@ impl Engine {
         self.staged.extend(lights.iter().map(|light| light_data(light, origin)));
         self.staging[slot].write(0, &self.staged);
         Ok(())
+    }
+
+    /// Writes a clustering's grid and the views that look lights up there, relative to the frame's origin.
+    fn write_clustering(
+        &mut self,
+        session: &Session,
+        slot: usize,
+        plan: &FramePlan,
+        number: usize,
+        lights: u32,
+    ) {
+        let clustering = &mut self.clusterings[number];
+        let origin = session.scene.origin;
+        let grid = plan.grids.get(number).map(|grid| grid.relative_to(origin));
+        let views = &plan.views[clustering.views.clone()];
+        let data = match &grid {
+            Some(grid) => grid_data(grid, views, origin, lights, &self.sizes),
+            None => gridless_data(lights),
+        };
+        clustering.word_count = data.word_count;
+        clustering.grids[slot].write(0, &[data]);
+        if let Some(grid) = &grid {
+            grid.slice_planes(&mut self.slice_planes);
+            clustering.slice_planes[slot].write(0, &self.slice_planes);
+        }
+        for (view, number) in views.iter().zip(clustering.views.clone()) {
+            let near = view.relative_to(origin);
+            let data = view_data(&near, grid.as_ref(), self.resolution, session.scene.reach);
+            session.slots[slot].views.write((number * size_of_val(&data)) as u64, &[data]);
+        }
     }
 
     /// What the device found out in the frame that ended in `slot`.
