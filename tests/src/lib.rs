@@ -1,11 +1,13 @@
 //! What the whole-program tests share: running the binary, running the library, reference data.
 
+pub mod scenes;
+
 use flate2::read::GzDecoder;
 use image::RgbImage;
 use manylight::config::Config;
 use manylight::measure::{ClusterLists, FrameCounts, FrameTimes, ViewPixels};
 use manylight::methods::MethodSpec;
-use manylight::output::{PlannedRun, planned_runs};
+use manylight::output::{PlannedRun, planned_runs, tone_map};
 use manylight::replay::{Inputs, RunResult, RunSink, Watch, replay};
 use std::fs::File;
 use std::io::Read;
@@ -137,4 +139,20 @@ pub fn run(mut config: Config) -> Vec<Run> {
     replay(&config, &inputs, &planned_runs(&config), &watch, &mut collect)
         .unwrap_or_else(|error| panic!("{error}"));
     collect.runs
+}
+
+/// Largest differences of colour between two pictures of one size: after tone mapping in steps of 1/255, and relative in HDR.
+pub fn difference(a: &ViewPixels, b: &ViewPixels) -> (u8, f32) {
+    let rgb = |pixels: &ViewPixels, at: usize| [0, 1, 2].map(|channel| pixels.color[at][channel].to_f32());
+    let mut most = (0, 0.0f32);
+    for at in 0..a.color.len() {
+        let (x, y) = (rgb(a, at), rgb(b, at));
+        let (mapped_x, mapped_y) = (tone_map(x), tone_map(y));
+        for channel in 0..3 {
+            most.0 = most.0.max(mapped_x[channel].abs_diff(mapped_y[channel]));
+            let scale = x[channel].abs().max(y[channel].abs()).max(1e-3);
+            most.1 = most.1.max((x[channel] - y[channel]).abs() / scale);
+        }
+    }
+    most
 }

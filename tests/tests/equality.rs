@@ -2,9 +2,7 @@
 //! samples a pixel, marked from depth and from geometry.
 
 use manylight::config::{Config, ExrFrames, FrameRange, Lighting, Marking};
-use manylight::measure::ViewPixels;
-use manylight::output::tone_map;
-use manylight_tests::{METHODS, Run, methods, run};
+use manylight_tests::{METHODS, Run, difference, methods, run};
 
 fn config(recording: &str, msaa: u32, marking: Marking) -> Config {
     Config {
@@ -18,22 +16,6 @@ fn config(recording: &str, msaa: u32, marking: Marking) -> Config {
         exr: ExrFrames::All,
         ..Config::default()
     }
-}
-
-/// Largest differences of colour: after tone mapping in steps of 1/255, and relative in HDR.
-fn difference(a: &ViewPixels, b: &ViewPixels) -> (u8, f32) {
-    let rgb = |pixels: &ViewPixels, at: usize| [0, 1, 2].map(|channel| pixels.color[at][channel].to_f32());
-    let mut most = (0, 0.0f32);
-    for at in 0..a.color.len() {
-        let (x, y) = (rgb(a, at), rgb(b, at));
-        let (mapped_x, mapped_y) = (tone_map(x), tone_map(y));
-        for channel in 0..3 {
-            most.0 = most.0.max(mapped_x[channel].abs_diff(mapped_y[channel]));
-            let scale = x[channel].abs().max(y[channel].abs()).max(1e-3);
-            most.1 = most.1.max((x[channel] - y[channel]).abs() / scale);
-        }
-    }
-    most
 }
 
 fn check(recording: &str, msaa: u32, marking: Marking) {

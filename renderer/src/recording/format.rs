@@ -224,7 +224,7 @@ pub(super) fn check_clock_and_depths(dt_s: f64, near: f64, far: f64) -> Result<(
     }
     if near < MIN_NEAR {
         let message =
-            format!("{near} m is nearer than single precision holds depths; give at least {MIN_NEAR} m");
+            format!("{near:e} m is nearer than single precision holds depths; give at least {MIN_NEAR:e} m");
         return Err(Problem::new(message).under("near"));
     }
     if !(far as f32 > near as f32 && far <= MAX_COORDINATE) {
