@@ -6,11 +6,11 @@
 use crate::culling::WorldBox;
 use crate::draw_list::Batches;
 use crate::gpu_interface::InstanceData;
-use crate::scene::{Primitive, Scene, Vertex};
+use crate::scene::{Bounds, Primitive, Scene, Vertex};
 use glam::{DMat4, DVec3, Vec3};
 use std::borrow::Cow;
 
-/// A primitive is moved where its middle is farther than this from its object's origin, metres.
+/// A primitive is moved where all of it is farther than this from its object's origin, metres.
 const FAR: f32 = 1024.0;
 
 /// An instance as it is drawn.
@@ -65,10 +65,13 @@ pub fn near_vertices(scene: &Scene) -> Cow<'_, [Vertex]> {
     vertices
 }
 
-/// The point of its object's space that becomes the origin of a primitive's vertices.
+/// The point of its object's space that becomes the origin of a primitive's vertices. None of them is then farther from it
+/// than from where it was: what reaches from near to far stays.
 fn moved_by(primitive: &Primitive) -> Vec3 {
-    let middle = 0.5 * primitive.bounds.min + 0.5 * primitive.bounds.max;
-    if middle.length() > FAR { middle } else { Vec3::ZERO }
+    let Bounds { min, max } = primitive.bounds;
+    let (middle, half) = (0.5 * min + 0.5 * max, 0.5 * max - 0.5 * min);
+    let nearest = Vec3::ZERO.clamp(min, max).length();
+    if nearest > FAR.max(half.length()) { middle } else { Vec3::ZERO }
 }
 
 #[cfg(test)]
@@ -106,6 +109,15 @@ mod tests {
                 assert!((a - b).abs() <= 1e-9 + a.abs() * f32::EPSILON, "{a} {b}");
             }
         }
+    }
+
+    #[test]
+    fn what_reaches_from_near_to_far_stays() {
+        let mut scene = by_name("temple").unwrap();
+        scene.primitives[0].bounds = Bounds { min: Vec3::splat(1100.0), max: Vec3::splat(9000.0) };
+        assert_eq!(moved_by(&scene.primitives[0]), Vec3::ZERO);
+        scene.primitives[0].bounds.max = Vec3::splat(1200.0);
+        assert_eq!(moved_by(&scene.primitives[0]), Vec3::splat(1150.0));
     }
 
     #[test]

@@ -10,7 +10,7 @@ use manylight_tests::{Run, methods, run};
 use std::fmt::Write as _;
 use std::path::Path;
 
-const RESOLUTION: [u32; 2] = [160, 90];
+const RESOLUTION: [u32; 2] = [320, 180];
 /// Bands of the screen, each with a surface that leads through a part of the depths.
 const BANDS: u32 = 15;
 
@@ -23,13 +23,15 @@ struct Eye {
     method: &'static str,
 }
 
-/// Near and far as in the default recordings; a long way; a longer one through a narrow angle; strongly off the axis.
-const EYES: [Eye; 5] = [
+/// Near and far as in the default recordings; a long way; a longer one through a narrow angle; as long as recordings go;
+/// off the axis, and more so.
+const EYES: [Eye; 6] = [
     Eye { near: 0.4, far: 100.0, tangents: [-0.7, 0.75, -0.4, 0.45], method: "indi-persp-16" },
     Eye { near: 0.05, far: 5000.0, tangents: [-0.6, 0.5, -0.3, 0.35], method: "indi-persp-24" },
     Eye { near: 1e-3, far: 1e5, tangents: [-0.01, 0.01, -0.006, 0.006], method: "indi-persp-16" },
+    Eye { near: 1e-6, far: 1e6, tangents: [-0.7, 0.75, -0.4, 0.45], method: "indi-persp-32" },
     Eye { near: 0.1, far: 100.0, tangents: [50.0, 50.02, -0.01, 0.01], method: "indi-persp-16" },
-    Eye { near: 1e-6, far: 1e6, tangents: [199.0, 200.0, -0.3, 0.3], method: "indi-persp-32" },
+    Eye { near: 0.01, far: 1000.0, tangents: [199.0, 200.0, -0.3, 0.3], method: "indi-persp-32" },
 ];
 
 impl Eye {
@@ -37,7 +39,7 @@ impl Eye {
     fn quads(&self) -> Vec<Quad> {
         let [x0, x1, y0, y1] = self.tangents;
         let depth =
-            |k: f64| self.near * 1.01 * (0.99 * self.far / (1.01 * self.near)).powf(k / f64::from(BANDS));
+            |k: f64| self.near * 1.01 * (0.95 * self.far / (1.01 * self.near)).powf(k / f64::from(BANDS));
         let height = |k: f64| y0 + (y1 - y0) * k / f64::from(BANDS);
         let point = |x: f64, y: f64, d: f64| [x * d, y * d, -d].map(|value| value as f32);
         let wide = 0.1 * (x1 - x0);
@@ -48,8 +50,9 @@ impl Eye {
                 [
                     point(x0 - wide, height(k), left),
                     point(x1 + wide, height(k), right),
-                    point(x1 + wide, height(k + 1.0), right),
-                    point(x0 - wide, height(k + 1.0), left),
+                    // A little farther, so that rows differ.
+                    point(x1 + wide, height(k + 1.0), 1.03 * right),
+                    point(x0 - wide, height(k + 1.0), 1.01 * left),
                 ]
             })
             .collect()
@@ -136,7 +139,7 @@ fn fragments_lie_between_the_planes_of_their_cluster() {
         slices.sort_unstable();
         slices.dedup();
         assert!(
-            seen > 10_000 && slices.len() > (planes.len() / 2).min(1000),
+            seen > 50_000 && slices.len() > (planes.len() / 2).min(1000),
             "{eye:?}: {seen} pixels in {} slices",
             slices.len()
         );
@@ -146,7 +149,7 @@ fn fragments_lie_between_the_planes_of_their_cluster() {
 /// Lights that end at a pixel, by the last bits of their radius, as rows of a lights file.
 fn touching_lights(frustum: &Frustum, run: &Run) -> String {
     let mut text = String::new();
-    for (number, (pixel, depth, _)) in hits(run).step_by(23).enumerate() {
+    for (number, (pixel, depth, _)) in hits(run).step_by(97).enumerate() {
         let point = point_of(frustum, pixel, depth);
         let turn = number as f64 * 2.399;
         let height = (number % 19) as f64 / 9.0 - 1.0;
