@@ -96,7 +96,7 @@ mod tests {
             position: [1.0, 2.0, -3.5],
             tint: [0.5, 1.0, 0.0],
             intensity: 100.0,
-            cutoff: 0.5,
+            cutoff: 100.0 / (14.0 * 14.0),
             r0: 0.1,
             r1: 14.0,
         };
