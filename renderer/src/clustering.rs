@@ -145,6 +145,8 @@ pub struct Clustering {
     pub buffers: ClusteringBuffers,
     /// [`GridData`], mapped, one per frame in flight.
     pub grids: [Buffer; SLOTS],
+    /// Depths between slices, mapped, as many.
+    pub slice_planes: [Buffer; SLOTS],
     /// The storage buffers, one set per frame in flight.
     pub sets: [vk::DescriptorSet; SLOTS],
     /// The views that look lights up here.
@@ -170,11 +172,15 @@ impl Clustering {
         let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
         let grid = || Buffer::new(context, "grid", size_of::<GridData>() as u64, usage, Memory::Upload);
         let grids = [grid()?, grid()?];
+        let bytes = (4 * u64::from(sizes.slice_planes)).max(MIN_BUFFER);
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let planes = || Buffer::new(context, "slice planes", bytes, usage, Memory::Upload);
+        let slice_planes = [planes()?, planes()?];
         let texels = texels(context, shared, &buffers)?;
         let sets = DescriptorSets::new(context, "clustering", layouts.buffers, &BUFFER_SET, SLOTS)?;
-        for (slot, grid) in grids.iter().enumerate() {
+        for (slot, (grid, planes)) in grids.iter().zip(&slice_planes).enumerate() {
             let to = BufferSet {
-                buffers: storage(&buffers, shared, slot),
+                buffers: storage(&buffers, shared, (slot, planes)),
                 texels: &texels,
                 uniforms: [shared.views[slot], grid, &buffers.state],
             };
@@ -183,6 +189,7 @@ impl Clustering {
         Ok(Self {
             buffers,
             grids,
+            slice_planes,
             sets: [sets.sets[0], sets.sets[1]],
             views,
             word_count: 0,
@@ -217,7 +224,7 @@ fn texels(
 fn storage<'a>(
     b: &'a ClusteringBuffers,
     shared: &SharedBuffers<'a>,
-    slot: usize,
+    (slot, slice_planes): (usize, &'a Buffer),
 ) -> [&'a Buffer; BUFFERS.len()] {
     [
         &b.light_spheres,
@@ -248,5 +255,6 @@ fn storage<'a>(
         shared.draw_order[slot],
         &shared.draws.commands,
         &shared.draws.drawn_instances,
+        slice_planes,
     ]
 }

@@ -16,7 +16,7 @@ pub struct WorldBox {
 impl WorldBox {
     /// Around an instance of a primitive with object-space `bounds`.
     pub fn new(instance: &Instance, bounds: &Bounds) -> Self {
-        let matrix = instance.world_from_object.as_dmat4();
+        let matrix = instance.world_from_object;
         let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
         let half = (max - min) * 0.5;
         let half_extent = matrix.x_axis.truncate().abs() * half.x
@@ -25,9 +25,9 @@ impl WorldBox {
         Self { center: matrix.transform_point3((min + max) * 0.5), half_extent }
     }
 
-    /// No point of it is farther than this from the world's origin, metres.
-    pub fn reach(&self) -> f64 {
-        self.center.length() + self.half_extent.length()
+    /// No point of it is farther than this from `origin`, metres.
+    pub fn reach(&self, origin: DVec3) -> f64 {
+        self.center.distance(origin) + self.half_extent.length()
     }
 }
 
@@ -143,7 +143,7 @@ mod tests {
             let at = DVec3::new(-10.5 + 1e-5 * f64::from(step), 0.1, -10.0);
             let bounds = cube(at);
             let [center, half] = [bounds.center, bounds.half_extent].map(|v| v.as_vec3());
-            let device = planes.for_device(bounds.reach()).into_iter().all(|[x, y, z, w]| {
+            let device = planes.for_device(bounds.reach(DVec3::ZERO)).into_iter().all(|[x, y, z, w]| {
                 let normal = glam::Vec3::new(x, y, z);
                 normal.dot(center) + w >= -normal.abs().dot(half)
             });

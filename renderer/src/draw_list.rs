@@ -107,11 +107,6 @@ impl Batches {
         result
     }
 
-    /// No instance reaches farther from the world's origin, metres.
-    pub fn reach(&self) -> f64 {
-        self.boxes.iter().map(WorldBox::reach).fold(0.0, f64::max)
-    }
-
     fn run(&self, instance: usize) -> DrawRun {
         DrawRun { batch: self.batch_of[instance], first_instance: instance as u32, instance_count: 1 }
     }

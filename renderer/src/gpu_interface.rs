@@ -8,6 +8,10 @@
 //!               (transform_lights)             └──────────────────────────> light_indices (assign_lights) <──┘
 //! ```
 //!
+//! World space, on the device, is relative to the frame's origin (see [`crate::origin`]). `slice_planes`, which the host
+//! writes with `grid`, are the depths between the slices of a perspective grid, so that a fragment's slice and the planes
+//! that lights are tested against are the same numbers, whatever a device makes of logarithms.
+//!
 //! Where the device culls, `views`, `instances`, `draw_slots` and `draw_order` go to `draw_commands` and
 //! `drawn_instances` before all that (cull).
 //!
@@ -60,10 +64,11 @@ pub enum Binding {
     DrawOrder,
     DrawCommands,
     DrawnInstances,
+    SlicePlanes,
 }
 
 /// Every buffer as (binding, access, GLSL member).
-pub const BUFFERS: [(Binding, &str, &str); 28] = [
+pub const BUFFERS: [(Binding, &str, &str); 29] = [
     (Binding::LightSpheres, "", "vec4 light_spheres[]"),
     (Binding::ClusterBits, "", "uint cluster_bits[]"),
     (Binding::WordRanks, "", "uint word_ranks[]"),
@@ -92,6 +97,7 @@ pub const BUFFERS: [(Binding, &str, &str); 28] = [
     (Binding::DrawOrder, "readonly", "DrawCounts draw_counts; uint draw_order[]"),
     (Binding::DrawCommands, "", "DrawCommand draw_commands[]"),
     (Binding::DrawnInstances, "", "uint drawn_instances[]"),
+    (Binding::SlicePlanes, "readonly", "float slice_planes[]"),
 ];
 
 /// Views of buffers as arrays of texels, as (buffer, GLSL declaration, format); bound behind [`BUFFERS`].

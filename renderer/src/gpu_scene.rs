@@ -1,14 +1,16 @@
 //! A scene on the device: vertices, indices, materials, instances, textures.
 
 use crate::Result;
-use crate::culling::WorldBox;
 use crate::draw_list::{Batch, Batches};
 use crate::draw_slots::DrawSlots;
 use crate::gpu_interface::{InstanceData, MaterialData};
 use crate::layouts::{DescriptorSets, Layouts, MATERIAL_SET, MATERIAL_TEXTURES};
+use crate::placements::{Placement, near_vertices, placements};
 use crate::scene::{Image, Material, Sampler, Scene, TextureRef, TextureSlot, Wrap};
 use crate::vk::{self as gpu, Buffer, Context, SamplerCache};
 use ash::vk;
+use glam::DVec3;
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// A scene ready to draw.
@@ -17,8 +19,13 @@ pub struct GpuScene {
     pub vertices: Buffer,
     /// 32-bit indices.
     pub indices: Buffer,
-    /// [`InstanceData`] in drawing order.
+    /// [`crate::gpu_interface::InstanceData`] in drawing order, relative to `origin`.
     pub instances: Buffer,
+    /// Of the frames that can be drawn now, see [`crate::origin`]; metres.
+    pub origin: DVec3,
+    /// No instance reaches farther from `origin`, metres.
+    pub reach: f64,
+    placements: Vec<Placement>,
     /// What is drawn where the device culls, as [`DrawSlots::slots`] has it.
     pub draw_slots: Buffer,
     /// What can be drawn at once.
@@ -42,9 +49,8 @@ impl GpuScene {
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
         let texels = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;
         let (materials, stride) = materials(context, &scene.materials)?;
-        let placed = batches.instances.iter().zip(&batches.boxes);
-        let instances: Vec<InstanceData> =
-            placed.map(|(&i, bounds)| instance_data(scene, i as usize, bounds)).collect();
+        let placements = placements(scene, batches);
+        let instances = instance_data(&placements, DVec3::ZERO);
         let samplers = SamplerCache::new(context)?;
         let mut textures = gpu::upload_textures(context, &scene.images)?;
         textures.extend(gpu::upload_textures(context, &neutral_images())?);
@@ -60,7 +66,7 @@ impl GpuScene {
                 context,
                 "vertices",
                 vk::BufferUsageFlags::VERTEX_BUFFER,
-                &scene.vertices,
+                &near_vertices(scene),
             )?,
             indices: Buffer::with_data(
                 context,
@@ -69,6 +75,9 @@ impl GpuScene {
                 &scene.indices,
             )?,
             instances: Buffer::with_data(context, "instances", storage | texels, &instances)?,
+            origin: DVec3::ZERO,
+            reach: reach(&placements, DVec3::ZERO),
+            placements,
             draw_slots: Buffer::with_data(context, "draw slots", storage, &slots.slots)?,
             batches: batches.batches.clone(),
             material_sets: sets.sets.clone(),
@@ -78,6 +87,26 @@ impl GpuScene {
             _samplers: samplers,
         })
     }
+
+    /// Places the instances relative to another origin, once every frame in flight has ended. Origins are coarse: this is
+    /// rare.
+    ///
+    /// # Errors
+    /// The device fails.
+    pub fn move_origin(&mut self, context: &Arc<Context>, origin: DVec3) -> Result<()> {
+        context.wait_idle()?;
+        self.instances.fill(&instance_data(&self.placements, origin))?;
+        (self.origin, self.reach) = (origin, reach(&self.placements, origin));
+        Ok(())
+    }
+}
+
+fn instance_data(placements: &[Placement], origin: DVec3) -> Vec<InstanceData> {
+    placements.par_iter().map(|placement| placement.data(origin)).collect()
+}
+
+fn reach(placements: &[Placement], origin: DVec3) -> f64 {
+    placements.iter().map(|placement| placement.reach(origin)).fold(0.0, f64::max)
 }
 
 /// The data of all materials, with the bytes from one to the next.
@@ -117,16 +146,6 @@ fn material_data(material: &Material) -> MaterialData {
 /// No normal map leaves the normal as it is: 8 bits have no exact zero for a neutral texture to hold.
 fn normal_scale(material: &Material) -> f32 {
     if material.textures[TextureSlot::Normal as usize].is_some() { material.normal_scale } else { 0.0 }
-}
-
-fn instance_data(scene: &Scene, index: usize, bounds: &WorldBox) -> InstanceData {
-    let instance = &scene.instances[index];
-    InstanceData {
-        world_from_object: instance.world_from_object.to_cols_array_2d(),
-        box_center: bounds.center.as_vec3().to_array(),
-        box_half_extent: bounds.half_extent.as_vec3().to_array(),
-        unused: [0.0; 2],
-    }
 }
 
 /// Stand-ins for absent textures, appended to the scene's: white, then the flat normal.

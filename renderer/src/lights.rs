@@ -34,6 +34,16 @@ impl PointLight {
         Self { position, tint, intensity, cutoff, r0, r1: (intensity / cutoff).sqrt() }
     }
 
+    /// The same light where its influence ends at `r1` metres: nearer than sqrt(I/I0), the cut-off is raised to I/R1^2, so
+    /// that the light still fades to nothing there.
+    pub fn ending_at(self, r1: f32) -> Self {
+        if !(r1 > 0.0 && r1 < self.r1) {
+            return Self { r1, ..self };
+        }
+        let cutoff = f64::from(self.intensity) / f64::from(r1).powi(2);
+        Self { cutoff: cutoff.min(f64::from(f32::MAX)) as f32, r1, ..self }
+    }
+
     /// Finds the first value that no light can have: its column in a lights file, and what it must be.
     pub(crate) fn check(&self) -> Result<(), (&'static str, String)> {
         for (column, value) in ["x", "y", "z"].into_iter().zip(self.position) {
@@ -123,19 +133,12 @@ fn reaches_something(light: &SceneLight) -> bool {
 }
 
 fn from_scene_light(light: &SceneLight, cutoff: f32, r0: f32) -> PointLight {
-    let unbounded = (light.intensity / cutoff).sqrt();
-    let (cutoff, r1) = match light.range {
-        Some(range) if range < unbounded => (light.intensity / (range * range), range),
-        _ => (cutoff, unbounded),
+    let unbounded = PointLight::new(light.position.to_array(), light.color, light.intensity, cutoff, r0);
+    let bounded = match light.range {
+        Some(range) if range < unbounded.r1 => unbounded.ending_at(range),
+        _ => unbounded,
     };
-    PointLight {
-        position: light.position.to_array(),
-        tint: light.color,
-        intensity: light.intensity,
-        cutoff,
-        r0: r0.min(0.5 * r1),
-        r1,
-    }
+    PointLight { r0: r0.min(0.5 * bounded.r1), ..bounded }
 }
 
 #[cfg(test)]

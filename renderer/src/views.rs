@@ -57,6 +57,16 @@ impl Pose {
         self.mirror.map_or(vector, |mirror| mirror.reflect_vector(vector))
     }
 
+    /// The same pose in a world whose origin lies at `origin` (metres) of this one.
+    pub fn relative_to(&self, origin: DVec3) -> Self {
+        let moved = Self::from_position(-origin);
+        Self {
+            position: self.position - origin,
+            rotation: self.rotation,
+            mirror: self.mirror.map(|mirror| mirror.moved(&moved)),
+        }
+    }
+
     /// A world point in this pose's own space.
     pub fn inverse_transform_point(&self, world: DVec3) -> DVec3 {
         let point = self.mirror.map_or(world, |mirror| mirror.reflect_point(world));
@@ -136,6 +146,11 @@ impl View {
     /// Clip from world.
     pub fn clip_from_world(&self) -> DMat4 {
         self.clip_from_view() * self.view_from_world()
+    }
+
+    /// The same view in a world whose origin lies at `origin` (metres) of this one.
+    pub fn relative_to(&self, origin: DVec3) -> Self {
+        Self { pose: self.pose.relative_to(origin), frustum: self.frustum }
     }
 
     /// Checks pose and frustum.

@@ -20,7 +20,7 @@ uint cluster_at(ViewData view, vec2 location, float depth)
     vec3 coordinates = cluster_coordinates(local);
     if (any(lessThan(coordinates, vec3(0.0))) || any(greaterThan(coordinates, vec3(grid.dimensions))))
         return NO_CLUSTER;
-    return linear_cluster(min(uvec3(coordinates), grid.dimensions - 1u));
+    return linear_cluster(cell_of_position(local));
 #else
     return cluster_of_sample(view, location, depth);
 #endif

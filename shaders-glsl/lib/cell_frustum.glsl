@@ -11,10 +11,10 @@ struct CellBounds {
 #endif
 };
 
+// z of the plane before a slice, from the table that decides slices. Where nothing is visible yet, a range is no range.
 float slice_depth(uint slice)
 {
-    precise float depth = -grid.origin.z * exp2(float(slice) * grid.cell.z);
-    return depth;
+    return -slice_planes[min(slice, grid.dimensions.z)];
 }
 
 // What cells from one to another fill together.

@@ -28,12 +28,45 @@ vec3 cluster_coordinates(vec3 position)
     return coordinates;
 }
 
-// Cell of a view-space position. Samples on the grid's far sides belong to the last cell.
+#if SPACE == SPACE_PERSPECTIVE
+
+// Error of a coordinate along z, in parts of itself and of slices per log2 of depth: twice what the Vulkan specification
+// grants log2 (3 ULP), the division and the product. Grids are planned so that it stays below half a slice.
+const float SLICE_ROUNDING = 2e-6;
+
+// The slice whose planes a depth lies between, given its coordinate: slice_planes[slice] <= depth < slice_planes[slice + 1].
+// A coordinate near a whole number leaves it to the plane there, with which lights are tested (see slice_depth).
+uint slice_of(float depth, float coordinate)
+{
+    float last = float(grid.dimensions.z - 1u);
+    float plane = round(coordinate);
+    bool close = abs(coordinate - plane) < SLICE_ROUNDING * (abs(coordinate) + grid.scale.z);
+    if (close && plane >= 1.0 && plane <= last) {
+        uint slice = uint(plane);
+        return depth < slice_planes[slice] ? slice - 1u : slice;
+    }
+    return uint(clamp(floor(coordinate), 0.0, last));
+}
+
+#endif
+
+// Cell of a position in the clustering camera's space. What lies outside, as samples on the grid's far sides, belongs to
+// the last cell there.
+uvec3 cell_of_position(vec3 position)
+{
+    vec3 coordinates = cluster_coordinates(position);
+    uvec3 cell = uvec3(clamp(ivec3(floor(coordinates)), ivec3(0), ivec3(grid.dimensions) - 1));
+#if SPACE == SPACE_PERSPECTIVE
+    cell.z = slice_of(-position.z, coordinates.z);
+#endif
+    return cell;
+}
+
+// Cell of a view-space position.
 uvec3 cluster_cell(ViewData view, vec3 position)
 {
     precise vec3 local = (view.clustering_from_view * vec4(position, 1.0)).xyz;
-    ivec3 cell = ivec3(floor(cluster_coordinates(local)));
-    return uvec3(clamp(cell, ivec3(0), ivec3(grid.dimensions) - 1));
+    return cell_of_position(local);
 }
 
 uint linear_cluster(uvec3 cell)

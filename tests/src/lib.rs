@@ -1,5 +1,7 @@
 //! What the whole-program tests share: running the binary, running the library, reference data.
 
+pub mod scenes;
+
 use flate2::read::GzDecoder;
 use image::RgbImage;
 use manylight::config::Config;
@@ -147,7 +149,7 @@ pub fn run_inputs(mut config: Config, inputs: &Inputs) -> Vec<Run> {
     collect.runs
 }
 
-/// Largest differences of colour: after tone mapping in steps of 1/255, and relative in HDR.
+/// Largest differences of colour between two pictures of one size: after tone mapping in steps of 1/255, and relative in HDR.
 pub fn difference(a: &ViewPixels, b: &ViewPixels) -> (u8, f32) {
     let rgb = |pixels: &ViewPixels, at: usize| [0, 1, 2].map(|channel| pixels.color[at][channel].to_f32());
     let mut most = (0, 0.0f32);

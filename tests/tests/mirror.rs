@@ -215,7 +215,7 @@ fn a_mirror_shows_the_reflected_scene() {
         let mut scene = seen.scene.clone();
         let reflection: Mat4 = mirror.to_matrix().as_mat4();
         for instance in &mut scene.instances {
-            instance.world_from_object = reflection * instance.world_from_object;
+            instance.world_from_object = reflection.as_dmat4() * instance.world_from_object;
         }
         let reflected = Inputs::load_with(&config, recording(None), Some(scene)).unwrap();
         let [seen, reflected] = [seen, reflected].map(|inputs| run_inputs(config.clone(), &inputs));

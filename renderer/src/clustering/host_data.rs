@@ -5,20 +5,47 @@ use crate::assign;
 use crate::culling::ViewPlanes;
 use crate::geometry::{ClusterSpace, Grid};
 use crate::gpu_interface::{GridData, ViewData};
+use crate::origin::AT_HOME;
 use crate::views::{Pose, View};
-use glam::DVec4;
+use glam::{DVec3, DVec4};
 
-/// Rounding of positions and planes in f32 stays below this fraction of the far distance, or of the radius where that is
-/// larger (measured: see the tests of the CPU twin), so radii grown by it never lose a light.
+/// Rounding of positions and planes in f32 stays below this fraction of the grid's reach (the far distance, or the
+/// farthest side of a box), or of the radius where that is larger, so radii grown by it never lose a light. It is measured
+/// (see the tests of lights that touch) for views up to [`WIDE`] and [`AT_HOME`]; bounding every rounding by its worst gives
+/// about three times as much.
 const SLACK_PER_METRE: f32 = 8e-7;
 
-/// A grid as shaders read it.
-pub fn grid_data(grid: &Grid, lights: u32, sizes: &ClusteringSizes) -> GridData {
-    let dimensions = glam::DVec3::from_array(grid.dimensions.map(f64::from));
-    let (origin, cell, reach) = match grid.space {
+/// That bound, for each metre beyond.
+const SLACK_PER_METRE_BEYOND: f64 = 2.4e-6;
+
+/// Corners of views up to so many reaches from the apex: those of a headset are at 2.27.
+const WIDE: f64 = 2.0;
+
+/// What rounding may cost in a grid whose planes are up to `reach` metres from its apex, metres. `grid` is relative to the
+/// frame's `origin`, `views`, which look lights up in it, are in the world.
+fn slack(grid: &Grid, views: &[View], origin: DVec3, reach: f64) -> f32 {
+    let corners = views.iter().flat_map(|view| view.frustum.corners().map(|c| view.pose.transform_point(c)));
+    let from_apex = |corner: DVec3| grid.pose.inverse_transform_point(corner - origin).length();
+    let sideways = corners.map(from_apex).fold(0.0, f64::max) - WIDE * reach;
+    let away = grid.pose.transform_point(DVec3::ZERO).length() - AT_HOME * reach;
+    let beyond = SLACK_PER_METRE_BEYOND * (sideways.max(0.0) + away.max(0.0));
+    (SLACK_PER_METRE * reach as f32).max(beyond as f32)
+}
+
+/// A grid as shaders read it: `grid` is relative to the frame's `origin`, `views`, which look lights up in it, are in the
+/// world.
+pub fn grid_data(
+    grid: &Grid,
+    views: &[View],
+    origin: DVec3,
+    lights: u32,
+    sizes: &ClusteringSizes,
+) -> GridData {
+    let dimensions = DVec3::from_array(grid.dimensions.map(f64::from));
+    let (lowest, cell, reach) = match grid.space {
         ClusterSpace::Perspective { frustum: f, ratio } => (
-            glam::DVec3::new(f.x0, f.y0, -f.z1),
-            glam::DVec3::new(
+            DVec3::new(f.x0, f.y0, -f.z1),
+            DVec3::new(
                 (f.x1 - f.x0) / dimensions.x,
                 (f.y1 - f.y0) / dimensions.y,
                 ratio.ln_1p() / std::f64::consts::LN_2,
@@ -34,10 +61,10 @@ pub fn grid_data(grid: &Grid, lights: u32, sizes: &ClusteringSizes) -> GridData 
         clustering_from_world: inverse(&grid.pose),
         dimensions: grid.dimensions,
         word_count: grid.cluster_count().div_ceil(32) as u32,
-        origin: origin.as_vec3().to_array(),
+        origin: lowest.as_vec3().to_array(),
         scale: (1.0 / cell).as_vec3().to_array(),
         cell: cell.as_vec3().to_array(),
-        slack: SLACK_PER_METRE * reach as f32,
+        slack: slack(grid, views, origin, reach),
         slack_per_radius: SLACK_PER_METRE,
         light_count: lights,
         visible_capacity: sizes.capacities.visible_clusters,

@@ -14,6 +14,8 @@ use crate::{Error, Result};
 pub struct ClusteringSizes {
     /// Clusters of the grid (largest of all frames); 0 for a method without clusters.
     pub clusters: u64,
+    /// Depths between slices of a perspective grid (most of all frames).
+    pub slice_planes: u32,
     /// Lights (most of all frames).
     pub lights: u32,
     /// Entries.
@@ -180,6 +182,7 @@ mod tests {
         let assigner = Assigner::Scatter;
         ClusteringSizes {
             clusters: 1 << 20,
+            slice_planes: 65,
             lights: 10_000,
             capacities,
             assigner,

@@ -25,8 +25,16 @@ pub struct Enclosing {
 /// distance. Tangents and depths are those of the corners.
 ///
 /// # Errors
-/// The views differ too much in direction: no frustum below 170 degrees holds them.
+/// A view that spans 170 degrees or more by itself, or views that differ too much in direction: no frustum below 170 degrees
+/// holds them.
 pub fn enclosing(head: &Pose, views: &[View]) -> Result<Enclosing> {
+    let mut angles = views.iter().map(|view| widest_angle(&view.frustum)).enumerate();
+    if let Some((view, degrees)) = angles.find(|(_, angle)| *angle >= WIDEST_DEGREES) {
+        return Err(Error::input(format!(
+            "view {view} spans {degrees:.2} degrees, and no enclosing frustum spans {WIDEST_DEGREES} or more; use a narrower \
+             field of view, or Indi (such as indi-persp-64) or an Ortho method (such as encl-ortho-4)"
+        )));
+    }
     let corners = Corners::new(head, views);
     if !corners.agree_in_direction() {
         return Err(Error::input(format!(
@@ -36,6 +44,12 @@ pub fn enclosing(head: &Pose, views: &[View]) -> Result<Enclosing> {
     }
     let tight = corners.tight_apex().map(|apex| corners.seen_from(apex)).filter(is_narrow_enough);
     Ok(tight.unwrap_or_else(|| corners.seen_from(corners.distant_apex())))
+}
+
+/// The angle that a frustum spans along the axis where it is wider, degrees.
+fn widest_angle(frustum: &Frustum) -> f64 {
+    let Frustum { x0, x1, y0, y1, .. } = frustum;
+    (x1.atan() - x0.atan()).max(y1.atan() - y0.atan()).to_degrees()
 }
 
 /// The corners of all views, head space.
@@ -126,9 +140,7 @@ fn all_on_one_side(points: &[DVec2], start: DVec2, along: DVec2) -> bool {
 }
 
 fn is_narrow_enough(enclosing: &Enclosing) -> bool {
-    let Frustum { x0, x1, y0, y1, .. } = enclosing.frustum;
-    let widest = WIDEST_DEGREES.to_radians();
-    x1.atan() - x0.atan() < widest && y1.atan() - y0.atan() < widest
+    widest_angle(&enclosing.frustum) < WIDEST_DEGREES
 }
 
 #[cfg(test)]
@@ -172,6 +184,22 @@ mod tests {
             let message = enclosing(&head_space(&views), &views).unwrap_err().to_string();
             assert!(message.contains("Ortho") && message.contains("170"), "{message}");
         }
+    }
+
+    #[test]
+    fn a_wide_view_is_not_blamed_on_its_direction() {
+        let wide = Frustum { x0: -12.0, x1: 12.0, ..EYE };
+        for views in [
+            vec![View { frustum: wide, ..view(0.0, 0.3) }],
+            vec![view(0.0, 0.0), View { frustum: wide, ..view(0.1, 0.0) }],
+        ] {
+            let message = enclosing(&head_space(&views), &views).unwrap_err().to_string();
+            let number = views.len() - 1;
+            assert!(message.starts_with(&format!("view {number} spans 170.47 degrees")), "{message}");
+            assert!(!message.contains("direction") && message.contains("ndi"), "{message}");
+        }
+        let narrow = View { frustum: Frustum { x0: -11.0, x1: 11.0, ..EYE }, ..view(0.0, 0.3) };
+        assert!(enclosing(&narrow.pose, &[narrow]).is_ok());
     }
 
     #[test]

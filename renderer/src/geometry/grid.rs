@@ -46,6 +46,11 @@ pub fn cell_at(linear: u32, [dx, dy, _]: [u32; 3]) -> [u32; 3] {
 }
 
 impl Grid {
+    /// The same grid in a world whose origin lies at `origin` (metres) of this one.
+    pub fn relative_to(&self, origin: DVec3) -> Self {
+        Self { pose: self.pose.relative_to(origin), ..*self }
+    }
+
     /// Dx*Dy*Dz.
     pub fn cluster_count(&self) -> u64 {
         self.dimensions.into_iter().map(u64::from).product()
@@ -144,6 +149,19 @@ impl Grid {
                 DVec3::new(f.x0 + size.x * part.x, f.y0 + size.y * part.y, -1.0) * distance
             }
             ClusterSpace::Orthographic { min, max } => min + (max - min) * part,
+        }
+    }
+
+    /// Replaces `planes` by the depths between the slices of a perspective grid, metres: near, Dz - 1 between, far. Empty
+    /// for orthographic grids.
+    ///
+    /// Slice k holds what is not nearer than plane k and nearer than plane k + 1, compared in f32 on the device. They
+    /// ascend strictly, see [`super::plan()`].
+    pub fn slice_planes(&self, planes: &mut Vec<f32>) {
+        planes.clear();
+        if let ClusterSpace::Perspective { frustum, ratio } = self.space {
+            let depth = |slice: u32| frustum.near() * (f64::from(slice) * ratio.ln_1p()).exp();
+            planes.extend((0..=self.dimensions[2]).map(|slice| depth(slice) as f32));
         }
     }
 

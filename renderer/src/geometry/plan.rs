@@ -12,6 +12,11 @@ use glam::DVec3;
 /// Sizes above this (pixels or metres) are no use to anybody and would spoil the precision of what follows.
 const LARGEST_SIZE: f64 = 1e6;
 
+/// Slices up to so many, and thicker than this part of their depth, are told apart in single precision (see
+/// `slice_of` in cluster_space.glsl).
+const MOST_SLICES: f64 = 1e5;
+const THINNEST_SLICE: f64 = 1e-5;
+
 /// Plans the clusterings of a frame: one grid a view for [`Sharing::Indi`], in the order of the views, one
 /// grid in all for [`Sharing::Encl`].
 ///
@@ -142,6 +147,13 @@ impl Planner {
 
     fn perspective(&self, pose: Pose, frustum: Frustum, counts: PerspectiveDimensions) -> Result<Grid> {
         let PerspectiveDimensions { dimensions, ratio } = counts;
+        let slices = dimensions.z;
+        if slices > MOST_SLICES || (slices > 1.0 && ratio < THINNEST_SLICE) {
+            return Err(self.error(&format!(
+                "{slices} slices, each {ratio:.1e} of its depth thick, are more than {MOST_SLICES} or thinner than \
+                 {THINNEST_SLICE:e}, which single precision does not tell apart; choose a larger size"
+            )));
+        }
         self.grid(pose, ClusterSpace::Perspective { frustum, ratio }, dimensions)
     }
 

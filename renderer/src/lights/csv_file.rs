@@ -20,7 +20,8 @@ pub struct LightsFile {
 
 /// Reads lights from a CSV file with a header, one light a row: position `x,y,z` in metres, linear tint `r,g,b`,
 /// intensity `i`, cut-off `i0`, near radius `r0` and influence radius `r1` in metres, columns in any order.
-/// Where `r1` has no column or no value, it is sqrt(i/i0).
+/// Where `r1` has no column or no value, it is sqrt(i/i0); where it is less than that, the light's cut-off is raised to
+/// i/r1^2, so that the light still fades to nothing at `r1`.
 ///
 /// # Errors
 /// [`Error::File`] with line and column where the file cannot be read, has not these columns, holds no light, or
@@ -81,7 +82,7 @@ fn light(record: &StringRecord, places: &[Option<usize>; 10]) -> Result<PointLig
     let tint = [number(3)?, number(4)?, number(5)?];
     let mut light = PointLight::new(position, tint, number(6)?, number(7)?, number(8)?);
     if !text(9).is_empty() {
-        light.r1 = number(9)?;
+        light = light.ending_at(number(9)?);
     }
     light.check()?;
     Ok(light)
@@ -90,6 +91,8 @@ fn light(record: &StringRecord, places: &[Option<usize>; 10]) -> Result<PointLig
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cpu::attenuation;
+    use crate::lights::Attenuation;
 
     const HEADER: &str = "x,y,z,r,g,b,i,i0,r0,r1\n";
 
@@ -105,7 +108,7 @@ mod tests {
             position: [1.0, 2.0, -3.5],
             tint: [0.5, 1.0, 0.0],
             intensity: 100.0,
-            cutoff: 0.5,
+            cutoff: 100.0 / (14.0 * 14.0),
             r0: 0.1,
             r1: 14.0,
         };
@@ -125,6 +128,21 @@ mod tests {
         assert_eq!(hash(&a), hash(&b));
         assert_ne!(hash(&a), hash(&c));
         assert_eq!(hash(&a).len(), 64);
+    }
+
+    #[test]
+    fn a_light_fades_to_nothing_at_its_r1() {
+        let text =
+            format!("{HEADER}1,2,3,1,1,1,8,0.5,0.25,2\n1,2,3,1,1,1,8,0.5,0.25,4\n1,2,3,1,1,1,8,0.5,0.25,6\n");
+        let lights = read(text.as_bytes()).unwrap();
+        assert_eq!(
+            lights.iter().map(|l| (l.r1, l.cutoff)).collect::<Vec<_>>(),
+            [(2.0, 2.0), (4.0, 0.5), (6.0, 0.5)]
+        );
+        for light in &lights {
+            let edge = attenuation(Attenuation::PhyRed2, light, f64::from(light.r1) - 1e-9);
+            assert!(edge.abs() < 1e-6, "{light:?} ends in an edge of {edge}");
+        }
     }
 
     #[test]

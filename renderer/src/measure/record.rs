@@ -1,5 +1,6 @@
 //! The records that passes produce and [`crate::output`] writes.
 
+use crate::{Error, Result};
 use half::f16;
 
 /// One visible cluster, read back in an atemporal run.
@@ -137,7 +138,49 @@ impl FrameCounts {
         self.sum(|clustering| clustering.visible_clusters_dropped)
     }
 
+    /// Refuses what must never happen, so that no result of such a frame is kept.
+    ///
+    /// # Errors
+    /// [`Error::Internal`] where a shaded fragment found no visible cluster, or visible clusters or light indices were
+    /// dropped.
+    pub fn check(&self) -> Result<()> {
+        let faults = [
+            (self.fragments_without_cluster, "shaded fragments found no visible cluster"),
+            (self.light_indices_dropped(), "light indices did not fit and were dropped"),
+            (self.visible_clusters_dropped(), "visible clusters did not fit and were dropped"),
+        ];
+        match faults.into_iter().find(|(count, _)| *count > 0) {
+            None => Ok(()),
+            Some((count, what)) => Err(Error::Internal(format!(
+                "frame {}: {count} {what}, which must never happen: the program or the driver is at fault, and the run is \
+                 not kept; try --device for another driver",
+                self.frame
+            ))),
+        }
+    }
+
     fn sum(&self, count: impl Fn(&ClusteringCounts) -> u64) -> u64 {
         self.clusterings.iter().map(count).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_that_lack_something_are_refused() {
+        let whole =
+            FrameCounts { frame: 7, clusterings: vec![ClusteringCounts::default(); 2], ..Default::default() };
+        whole.check().unwrap();
+        let mut faults = [whole.clone(), whole.clone(), whole];
+        faults[0].fragments_without_cluster = 3;
+        faults[1].clusterings[1].light_indices_dropped = 4;
+        faults[2].clusterings[0].visible_clusters_dropped = 5;
+        for (counts, what) in faults.iter().zip(["3 shaded", "4 light indices", "5 visible clusters"]) {
+            let error = counts.check().unwrap_err();
+            assert!(error.to_string().starts_with(&format!("frame 7: {what}")), "{error}");
+            assert_eq!(error.exit_code(), 1);
+        }
     }
 }

@@ -15,6 +15,13 @@ pub fn check_device(context: &Context, config: &Config, views: ViewSet) -> Resul
             context.info.name, limits.sample_counts
         )));
     }
+    if samples > 1 && !limits.standard_sample_locations {
+        return Err(Error::Device(format!(
+            "{} does not say where its samples lie (it lacks standardSampleLocations), which clusters of samples need: use \
+             --msaa 1",
+            context.info.name
+        )));
+    }
     if samples > 1 && marking == Marking::Depth && !limits.sample_rate_shading {
         return Err(Error::Device(format!(
             "{} cannot shade per sample, which marking from depth needs with MSAA: use --marking geometry",

@@ -9,6 +9,18 @@ use serde::{Deserialize, Serialize};
 /// Largest magnitude of a coordinate, metres: beyond it single precision is coarser than 0.1 m.
 pub(crate) const MAX_COORDINATE: f64 = 1e6;
 
+/// Least distance of the near plane, metres: with the farthest far plane, depths are then far from single precision's least
+/// numbers.
+const MIN_NEAR: f64 = 1e-6;
+
+/// Largest tangent of a frustum's side: 89.94 degrees.
+const MAX_TANGENT: f64 = 1000.0;
+
+/// Least distance between the tangents of opposite sides, and that in parts of the larger one: thinner frusta leave single
+/// precision too few numbers for pixels and clusters.
+const MIN_EXTENT: f64 = 1e-6;
+const MIN_EXTENT_PER_TANGENT: f64 = 1e-4;
+
 /// How far a quaternion's length may be from 1.
 const UNIT_TOLERANCE: f64 = 1e-6;
 
@@ -243,8 +255,13 @@ pub(super) fn check_clock_and_depths(dt_s: f64, near: f64, far: f64) -> Result<(
     if !(dt_s.is_finite() && dt_s as f32 > 0.0) {
         return Err(Problem::new(format!("{dt_s} is no time step; give seconds above 0")).under("dt_s"));
     }
-    if !(near.is_finite() && near as f32 > 0.0) {
+    if !(near.is_finite() && near > 0.0) {
         return Err(Problem::new(format!("{near} is no distance; give metres above 0")).under("near"));
+    }
+    if near < MIN_NEAR {
+        let message =
+            format!("{near:e} m is nearer than single precision holds depths; give at least {MIN_NEAR:e} m");
+        return Err(Problem::new(message).under("near"));
     }
     if !(far as f32 > near as f32 && far <= MAX_COORDINATE) {
         let message = format!("{far} must lie above near ({near}) and within {MAX_COORDINATE} m");
@@ -266,10 +283,38 @@ pub(super) fn check_position(position: DVec3) -> Result<(), Problem> {
 
 /// A field of view in radians.
 pub(super) fn check_fov(fov: f64) -> Result<(), Problem> {
-    if fov > 0.0 && fov < std::f64::consts::PI {
-        return Ok(());
+    if !(fov > 0.0 && fov < std::f64::consts::PI) {
+        return Err(Problem::new(format!("{fov} is no field of view; give radians between 0 and pi")));
     }
-    Err(Problem::new(format!("{fov} is no field of view; give radians between 0 and pi")))
+    let (least, most) = (2.0 * (0.5 * MIN_EXTENT).atan(), 2.0 * MAX_TANGENT.atan());
+    if !(least..=most).contains(&fov) {
+        let message =
+            format!("{fov} is beyond what single precision holds; give {least:.1e} to {most:.4} radians");
+        return Err(Problem::new(message));
+    }
+    Ok(())
+}
+
+/// The tangents of two opposite sides.
+fn check_tangents(low: f64, high: f64) -> Result<(), Problem> {
+    if !(low.is_finite() && high.is_finite() && low < high) {
+        let message = format!("tangents {low} and {high} are not in order; give the lower one first");
+        return Err(Problem::new(message));
+    }
+    let largest = low.abs().max(high.abs());
+    if largest > MAX_TANGENT {
+        let message =
+            format!("tangents {low} and {high} are not within +-{MAX_TANGENT}; give a narrower frustum");
+        return Err(Problem::new(message));
+    }
+    let least = MIN_EXTENT.max(MIN_EXTENT_PER_TANGENT * largest);
+    if high - low < least {
+        let message = format!(
+            "tangents {low} and {high} lie too close for single precision; give them at least {least:.1e} apart"
+        );
+        return Err(Problem::new(message));
+    }
+    Ok(())
 }
 
 fn check_pose(pose: &Pose) -> Result<(), Problem> {
@@ -292,13 +337,8 @@ impl Check for EyeRow {
     fn check(&self) -> Result<(), Problem> {
         check_pose(&self.pose)?;
         let [x0, x1, y0, y1] = self.tangents;
-        for (index, (low, high)) in [(7, (x0, x1)), (9, (y0, y1))] {
-            if !(low.is_finite() && high.is_finite() && (low as f32) < high as f32) {
-                let message = format!("tangents {low} and {high} are not in order; give the lower one first");
-                return Err(Problem::new(message).under(index));
-            }
-        }
-        Ok(())
+        check_tangents(x0, x1).map_err(|problem| problem.under(7))?;
+        check_tangents(y0, y1).map_err(|problem| problem.under(9))
     }
 }
 

@@ -49,6 +49,7 @@ pub fn count_frame(
         }
     }
     let counts = read_counts(engine, session, plan, (lights.len() as u32, time_s), sink)?;
+    counts.check()?;
     let views = images.iter().zip(view_names.unwrap_or_default()).zip(plan.views.iter().enumerate());
     let pixels = views.map(|((buffer, name), (number, view))| ViewPixels {
         dimensions: grid_of(plan, number),

@@ -20,6 +20,7 @@ use crate::passes::readback::STATE_BYTES;
 use crate::pipelines::{Pipelines, Variant};
 use crate::vk::{Buffer, Context, Memory};
 use ash::vk;
+use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
 /// The device's part of a run in one mode: temporal (nothing counted) or atemporal (all counted).
@@ -37,6 +38,7 @@ pub struct Engine {
     lights: Buffer,
     staging: [Buffer; SLOTS],
     staged: Vec<LightData>,
+    slice_planes: Vec<f32>,
     clusterings: Vec<Clustering>,
     /// Whether frames are shaded; true at first.
     pub shaded: bool,
@@ -85,6 +87,7 @@ fn sizes(config: &Config, method: MethodSpec, plans: &[FramePlan], mode: &Mode) 
     let none = Capacities { visible_clusters: 0, light_indices: 0 };
     ClusteringSizes {
         clusters: plans.iter().flat_map(|p| &p.grids).map(|g| g.cluster_count()).max().unwrap_or(0),
+        slice_planes: plans.iter().flat_map(|p| &p.grids).map(|g| g.dimensions[2] + 1).max().unwrap_or(0),
         lights: mode.lights,
         capacities: if method == MethodSpec::AllLights { none } else { mode.capacities },
         assigner: assigner(method, mode),
@@ -129,6 +132,7 @@ impl Engine {
             pipelines: session.store.pipelines(&variant(config, method, &mode))?,
             sizes,
             staged: Vec::with_capacity(mode.lights as usize),
+            slice_planes: vec![],
             clusterings: vec![],
             shaded: true,
             tree: ScopeTree::default(),
@@ -193,7 +197,7 @@ impl Engine {
         lights: &[PointLight],
         extend: (&mut Commands, &mut Commands),
     ) -> Result<()> {
-        self.write_host_data(session, slot, plan, lights);
+        self.write_host_data(session, slot, plan, lights)?;
         session.slots[slot].begin()?;
         self.record(session, slot, |r, frame| {
             (extend.0)(r, frame);
@@ -262,19 +266,15 @@ impl Engine {
         slot: usize,
         plan: &FramePlan,
         lights: &[PointLight],
-    ) {
-        let this = &mut session.slots[slot];
-        for (c, clustering) in self.clusterings.iter_mut().enumerate() {
-            let grid = plan.grids.get(c);
-            let count = lights.len() as u32;
-            let data = grid.map_or_else(|| gridless_data(count), |g| grid_data(g, count, &self.sizes));
-            clustering.word_count = data.word_count;
-            clustering.grids[slot].write(0, &[data]);
-            for v in clustering.views.clone() {
-                let data = view_data(&plan.views[v], grid, self.resolution, session.reach);
-                this.views.write((v * size_of_val(&data)) as u64, &[data]);
-            }
+    ) -> Result<()> {
+        let origin = plan.origin();
+        if session.scene.origin != origin {
+            session.scene.move_origin(&session.context, origin)?;
         }
+        for clustering in 0..self.clusterings.len() {
+            self.write_clustering(session, slot, plan, clustering, lights.len() as u32);
+        }
+        let this = &mut session.slots[slot];
         this.mirrored.clear();
         this.mirrored.extend(plan.views.iter().map(|view| view.pose.mirror.is_some()));
         match self.culling {
@@ -296,8 +296,39 @@ impl Engine {
             }
         }
         self.staged.clear();
-        self.staged.extend(lights.iter().map(light_data));
+        self.staged.extend(lights.iter().map(|light| light_data(light, origin)));
         self.staging[slot].write(0, &self.staged);
+        Ok(())
+    }
+
+    /// Writes a clustering's grid and the views that look lights up there, relative to the frame's origin.
+    fn write_clustering(
+        &mut self,
+        session: &Session,
+        slot: usize,
+        plan: &FramePlan,
+        number: usize,
+        lights: u32,
+    ) {
+        let clustering = &mut self.clusterings[number];
+        let origin = session.scene.origin;
+        let grid = plan.grids.get(number).map(|grid| grid.relative_to(origin));
+        let views = &plan.views[clustering.views.clone()];
+        let data = match &grid {
+            Some(grid) => grid_data(grid, views, origin, lights, &self.sizes),
+            None => gridless_data(lights),
+        };
+        clustering.word_count = data.word_count;
+        clustering.grids[slot].write(0, &[data]);
+        if let Some(grid) = &grid {
+            grid.slice_planes(&mut self.slice_planes);
+            clustering.slice_planes[slot].write(0, &self.slice_planes);
+        }
+        for (view, number) in views.iter().zip(clustering.views.clone()) {
+            let near = view.relative_to(origin);
+            let data = view_data(&near, grid.as_ref(), self.resolution, session.scene.reach);
+            session.slots[slot].views.write((number * size_of_val(&data)) as u64, &[data]);
+        }
     }
 
     /// What the device found out in the frame that ended in `slot`.
@@ -354,9 +385,10 @@ fn with_margin(needed: u32, most: u32) -> u32 {
     needed.saturating_add(needed / GROWTH_MARGIN).min(most).max(needed)
 }
 
-fn light_data(light: &PointLight) -> LightData {
+/// A light as shaders read it in a frame with this origin.
+fn light_data(light: &PointLight, origin: DVec3) -> LightData {
     LightData {
-        position: light.position,
+        position: (Vec3::from(light.position).as_dvec3() - origin).as_vec3().to_array(),
         r1: light.r1,
         tint: light.tint,
         intensity: light.intensity,

@@ -3,9 +3,11 @@
 use crate::config::Config;
 use crate::geometry::{self, Grid};
 use crate::methods::{MethodSpec, Sharing};
+use crate::origin;
 use crate::recording::Recording;
 use crate::views::View;
 use crate::{Error, Result};
+use glam::DVec3;
 use std::ops::Range;
 
 /// One frame as planned on the host.
@@ -17,6 +19,13 @@ pub struct FramePlan {
     pub views: Vec<View>,
     /// Grids: one a view for Indi, one for Encl, none for a method without clusters.
     pub grids: Vec<Grid>,
+}
+
+impl FramePlan {
+    /// What positions on the device are relative to in this frame, metres.
+    pub fn origin(&self) -> DVec3 {
+        origin::of_views(&self.views)
+    }
 }
 
 /// Clusters of a grid that 32-bit indices and the visibility words still serve.

@@ -138,8 +138,6 @@ pub struct Session {
     pub scene: GpuScene,
     /// Its instances in drawing order.
     pub batches: Batches,
-    /// No instance reaches farther from the world's origin, metres.
-    pub reach: f64,
     /// What is drawn of them where the device culls.
     pub draw_slots: DrawSlots,
     /// What stage `cull` fills.
@@ -178,7 +176,6 @@ impl Session {
             targets,
             _depth_sets: depth_sets,
             scene: gpu_scene,
-            reach: batches.reach(),
             batches,
             draws: draw_buffers(&context, views, draw_slots.counts)?,
             draw_slots,

@@ -157,7 +157,7 @@ fn point([x, y, z]: [f64; 3]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use glam::{Mat4, Vec3};
+    use glam::{DMat4, DVec3};
 
     use super::super::image::Content;
     use super::super::mesh::tests::quad;
@@ -173,7 +173,7 @@ mod tests {
         scene.images =
             vec![Image::with_mips("leaf.png", [4, 2], vec![9; 32], Content::Color { cutoff: None })];
         for x in [0.0, 10.0] {
-            let world_from_object = Mat4::from_translation(Vec3::new(x, 0.0, 0.0));
+            let world_from_object = DMat4::from_translation(DVec3::new(x, 0.0, 0.0));
             scene.instances.push(Instance { primitive: 0, world_from_object });
         }
         scene

@@ -17,7 +17,7 @@ mod tangents;
 use std::path::Path;
 
 use bytemuck::{Pod, Zeroable};
-use glam::{DVec3, Mat4, Vec3};
+use glam::{DMat4, DVec3, Vec3};
 
 use crate::{Error, Result};
 
@@ -68,8 +68,9 @@ pub struct Primitive {
 pub struct Instance {
     /// Into [`Scene::primitives`].
     pub primitive: u32,
-    /// Affine transform; may mirror (negative determinant).
-    pub world_from_object: Mat4,
+    /// Affine transform; may mirror (negative determinant). In f64: a place far from the world's origin must not move by
+    /// the rounding of f32.
+    pub world_from_object: DMat4,
 }
 
 /// What a material's alpha means (glTF 2.0, section 3.9.4).
@@ -309,7 +310,7 @@ impl Scene {
                         if corner >> bit & 1 == 0 { bounds.min[axis] } else { bounds.max[axis] }
                     };
                     let object = Vec3::new(pick(0, 0), pick(1, 1), pick(2, 2));
-                    instance.world_from_object.transform_point3(object).as_dvec3()
+                    instance.world_from_object.transform_point3(object.as_dvec3())
                 })
             })
             .fold(None, |all, p| Some(all.map_or((p, p), |(lo, hi): (DVec3, DVec3)| (lo.min(p), hi.max(p)))))

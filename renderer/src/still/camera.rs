@@ -62,13 +62,13 @@ impl Placed {
     }
 
     /// The camera over an image of `resolution`. Like the `views` it begins to see at their near distance; it sees as
-    /// far as they do, and to the end of a scene that lies within `reach` metres of the origin.
+    /// far as they do, and at least to `farthest`, the end of the scene, metres.
     ///
     /// # Errors
     /// A resolution of zero.
-    pub fn view(&self, views: &[View], resolution: [u32; 2], reach: f64) -> Result<View> {
+    pub fn view(&self, views: &[View], resolution: [u32; 2], farthest: f64) -> Result<View> {
         let near = views.iter().map(|view| view.frustum.near()).fold(f64::INFINITY, f64::min);
-        let far = views.iter().map(|view| view.frustum.far()).fold(self.eye.length() + reach, f64::max);
+        let far = views.iter().map(|view| view.frustum.far()).fold(farthest, f64::max);
         let frustum = Frustum::from_fov(self.fov, resolution, near, far)?;
         Ok(View { pose: looking_at(self.eye, self.target), frustum })
     }
@@ -249,7 +249,7 @@ mod tests {
     #[test]
     fn a_placed_camera_sees_to_the_end_of_the_scene() {
         let placed = Placed::new([0.0, 0.0, 300.0], [0.0; 3], Some(0.5)).unwrap();
-        let frustum = placed.view(&[head(0.0, 0.0)], [90, 60], 80.0).unwrap().frustum;
+        let frustum = placed.view(&[head(0.0, 0.0)], [90, 60], 380.0).unwrap().frustum;
         assert_eq!((frustum.near(), frustum.far()), (0.4, 380.0));
         assert!((frustum.x1 - 0.25f64.tan()).abs() < 1e-12);
         let near = Placed::new([0.0; 3], [1.0, 0.0, 0.0], None).unwrap();

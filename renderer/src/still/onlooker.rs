@@ -7,8 +7,11 @@ use super::{Base, Show, shapes};
 use crate::Result;
 use crate::clustering::view_data;
 use crate::config::Config;
+use crate::geometry::Grid;
 use crate::gpu_interface::PixelData;
+use crate::gpu_scene::GpuScene;
 use crate::measure::ViewPixels;
+use crate::passes::lines::Line;
 use crate::passes::pixel_maps;
 use crate::pipelines::DebugPipelines;
 use crate::replay::FramePlan;
@@ -18,6 +21,7 @@ use crate::replay::session::Session;
 use crate::views::View;
 use crate::vk::{Buffer, Memory};
 use ash::vk;
+use glam::DVec3;
 use half::f16;
 use image::RgbImage;
 
@@ -62,15 +66,15 @@ impl<'a> Onlooker<'a> {
         shaded: Vec<ViewPixels>,
     ) -> Result<Seen> {
         let pipelines = session.store.debug(&engine::variant(self.config, engine.method(), mode))?;
-        let eye = self.eye(&shaded, session.reach)?;
+        let eye = self.eye(&shaded, &session.scene)?;
         let layers = self.layers(session, engine, (&pipelines, &eye), shaded)?;
         let empty = self.empty_pixels(&eye);
         let (image, pixels) = compose::compose(&self.show, &layers, &self.plan.grids, empty);
         Ok(Seen { image, pixels })
     }
 
-    /// Where the camera is, in a scene that lies within `reach` metres of the origin.
-    fn eye(&self, shaded: &[ViewPixels], reach: f64) -> Result<View> {
+    /// Where the camera is, world space.
+    fn eye(&self, shaded: &[ViewPixels], scene: &GpuScene) -> Result<View> {
         let views = &self.plan.views;
         match self.camera {
             Camera::View(view) => Ok(views[view]),
@@ -79,7 +83,10 @@ impl<'a> Onlooker<'a> {
                 let distances = shaded.iter().flat_map(|view| view.depth.iter().copied());
                 camera::birdseye(views, self.config.resolution, camera::reach(far, distances))
             }
-            Camera::Placed(placed) => placed.view(views, self.config.resolution, reach),
+            Camera::Placed(placed) => {
+                let farthest = placed.eye.distance(scene.origin) + scene.reach;
+                placed.view(views, self.config.resolution, farthest)
+            }
         }
     }
 
@@ -92,19 +99,21 @@ impl<'a> Onlooker<'a> {
         mut shaded: Vec<ViewPixels>,
     ) -> Result<Layers> {
         let clustered = !self.plan.grids.is_empty();
+        let origin = self.plan.origin();
         let all: Vec<usize> = (0..self.plan.grids.len().max(1)).collect();
         let (view, lookup, clusterings) = match self.camera {
             Camera::View(view) => (view, 0, vec![if all.len() > 1 { view } else { 0 }]),
             Camera::BirdsEye | Camera::Placed(_) => {
                 let slot = &mut session.slots[SLOT];
                 slot.mirrored[0] = false;
-                slot.views.write(0, &[view_data(eye, None, self.config.resolution, session.reach)]);
+                let near = eye.relative_to(origin);
+                let data = view_data(&near, None, self.config.resolution, session.scene.reach);
+                slot.views.write(0, &[data]);
                 slot.draw_lists[0].update(&session.batches, std::slice::from_ref(eye));
                 (0, 1, all)
             }
         };
-        let lines =
-            if self.show.frusta { shapes::frusta(&self.plan.views, &self.plan.grids) } else { vec![] };
+        let lines = if self.show.frusta { self.frusta(origin) } else { vec![] };
         let line_buffer = (!lines.is_empty())
             .then(|| {
                 Buffer::with_data(&session.context, "lines", vk::BufferUsageFlags::VERTEX_BUFFER, &lines)
@@ -142,6 +151,13 @@ impl<'a> Onlooker<'a> {
             Camera::BirdsEye | Camera::Placed(_) => None,
         };
         Ok(Layers { shaded, clay: color(&clay), overlay: color(&overlay), clusterings, distance })
+    }
+
+    /// The frame's frusta and boxes, relative to its origin.
+    fn frusta(&self, origin: DVec3) -> Vec<Line> {
+        let views: Vec<View> = self.plan.views.iter().map(|view| view.relative_to(origin)).collect();
+        let grids: Vec<Grid> = self.plan.grids.iter().map(|grid| grid.relative_to(origin)).collect();
+        shapes::frusta(&views, &grids)
     }
 
     fn pixel_count(&self) -> usize {

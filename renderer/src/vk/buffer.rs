@@ -80,22 +80,32 @@ impl Buffer {
         let bytes: &[u8] = bytemuck::cast_slice(data);
         let usage = usage | vk::BufferUsageFlags::TRANSFER_DST;
         let buffer = Self::new(context, name, bytes.len() as u64, usage, Memory::Device)?;
+        buffer.fill(bytes)?;
+        Ok(buffer)
+    }
+
+    /// Writes `data` to the start of a buffer made by [`Buffer::with_data`], and waits. No work that reads it may be running.
+    ///
+    /// # Errors
+    /// [`Error::Device`] when the memory is out or the device fails.
+    pub fn fill<T: Pod>(&self, data: &[T]) -> Result<()> {
+        let (context, bytes): (_, &[u8]) = (&self.context, bytemuck::cast_slice(data));
         let chunk = STAGING_BYTES.min(bytes.len());
         if chunk == 0 {
-            return Ok(buffer);
+            return Ok(());
         }
-        let transfer = vk::BufferUsageFlags::TRANSFER_SRC;
-        let staging = Self::new(context, &format!("{name} staging"), chunk as u64, transfer, Memory::Upload)?;
+        let (name, transfer) = (format!("{} staging", self.name), vk::BufferUsageFlags::TRANSFER_SRC);
+        let staging = Self::new(context, &name, chunk as u64, transfer, Memory::Upload)?;
         for (index, part) in bytes.chunks(chunk).enumerate() {
             staging.write(0, part);
             let region = vk::BufferCopy::default().dst_offset((index * chunk) as u64).size(part.len() as u64);
             context.submit_and_wait(|cmd| unsafe {
-                context.device.cmd_copy_buffer(cmd, staging.handle, buffer.handle, &[region]);
+                context.device.cmd_copy_buffer(cmd, staging.handle, self.handle, &[region]);
                 // The next chunk, or the first frame, comes in a later submission: make the copy visible to it.
                 full_barrier(context, cmd);
             })?;
         }
-        Ok(buffer)
+        Ok(())
     }
 
     /// As it was made with, for messages.

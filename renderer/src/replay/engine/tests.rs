@@ -49,6 +49,11 @@ fn lights(count: u32) -> Vec<PointLight> {
     Rain::new(&RainParameters::default(), &lighting, 1.0 / 90.0, 30).unwrap().lights().to_vec()
 }
 
+/// A frame of one view that looks from where `grid` does.
+fn frame_of(grid: Grid) -> FramePlan {
+    FramePlan { frame: 0, views: vec![View { pose: grid.pose, ..view() }], grids: vec![grid] }
+}
+
 /// A device with one planned frame whose grid is `grid`, ready for single passes.
 struct Bench {
     engine: Engine,
@@ -80,13 +85,13 @@ impl Bench {
     ) -> Self {
         let mut session = Session::new(config, scene, ViewSet { count: 1, mirrors: false }).unwrap();
         let words = grid.cluster_count().div_ceil(32);
-        let plan = FramePlan { frame: 0, views: vec![view()], grids: vec![grid] };
+        let plan = frame_of(grid);
         let plans = std::slice::from_ref(&plan);
         let assigner = config.assign[0].fixed().expect("tests name what they test");
         let test = config.test[0].of(&method);
         let mode = Mode { lights: lights.len() as u32, capacities, assigner, test, counting: true };
         let mut engine = Engine::new(&mut session, config, method, plans, mode).unwrap();
-        engine.write_host_data(&mut session, 0, &plan, lights);
+        engine.write_host_data(&mut session, 0, &plan, lights).unwrap();
         Self { engine, session, words }
     }
 

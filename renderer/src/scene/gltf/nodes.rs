@@ -47,7 +47,7 @@ pub(super) struct Shape {
 pub(super) struct PlacedMesh {
     /// Into [`Placed::shapes`].
     pub shape: usize,
-    pub world_from_object: Mat4,
+    pub world_from_object: DMat4,
 }
 
 /// Walks the default scene: the one the file names, else its first, else all nodes without a parent.
@@ -92,7 +92,7 @@ impl Placed {
         }
         for placed in &mut self.meshes {
             if let Some(skin) = self.shapes[placed.shape].skin {
-                placed.world_from_object = Mat4::from_translation(self.skins[&skin].origin);
+                placed.world_from_object = DMat4::from_translation(self.skins[&skin].origin.as_dvec3());
             }
         }
         Ok(())
@@ -203,14 +203,14 @@ impl Walk<'_> {
         if node.skin.is_some() {
             let kind = "skinned nodes with instances (EXT_mesh_gpu_instancing), drawn once";
             self.left_out.add(kind, u64::from(instances.is_some()));
-            return self.push(PlacedMesh { shape, world_from_object: Mat4::IDENTITY });
+            return self.push(PlacedMesh { shape, world_from_object: DMat4::IDENTITY });
         }
         for node_from_instance in instances.unwrap_or_else(|| vec![DMat4::IDENTITY]) {
-            let world_from_object = (world_from_node * node_from_instance).as_mat4();
-            if !world_from_object.is_finite() {
+            let world_from_object = world_from_node * node_from_instance;
+            if !world_from_object.as_mat4().is_finite() {
                 return Err("has an instance whose transform is not finite".into());
             }
-            if has_extent(world_from_object) {
+            if has_extent(world_from_object.as_mat4()) {
                 self.push(PlacedMesh { shape, world_from_object })?;
             } else {
                 self.left_out.add("nodes scaled to nothing and left out", 1);

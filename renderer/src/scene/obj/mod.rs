@@ -13,7 +13,7 @@ mod text;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use glam::Mat4;
+use glam::DMat4;
 use rayon::prelude::*;
 
 use self::material::Materials;
@@ -73,7 +73,7 @@ fn add_models(scene: &mut Scene, path: &Path, models: Vec<tobj::Model>, material
         }
         let primitive = scene.primitives.len() as u32;
         scene.add_mesh(mesh).map_err(|message| Error::file(path, message))?;
-        scene.instances.push(Instance { primitive, world_from_object: Mat4::IDENTITY });
+        scene.instances.push(Instance { primitive, world_from_object: DMat4::IDENTITY });
     }
     Ok(())
 }

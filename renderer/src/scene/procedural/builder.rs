@@ -43,7 +43,7 @@ impl Builder {
 
     /// Draws a model at `place`.
     pub(super) fn place(&mut self, model: &Model, place: &Place) {
-        let world_from_object = place.matrix();
+        let world_from_object = place.matrix().as_dmat4();
         self.instances.extend(model.0.clone().map(|primitive| Instance { primitive, world_from_object }));
     }
 
@@ -84,7 +84,7 @@ impl Builder {
         hash.update(bytemuck::cast_slice::<_, u8>(&self.indices));
         for instance in &self.instances {
             hash.update(instance.primitive.to_le_bytes());
-            hash.update(bytemuck::bytes_of(&instance.world_from_object));
+            hash.update(bytemuck::bytes_of(&instance.world_from_object.as_mat4()));
         }
         hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
     }

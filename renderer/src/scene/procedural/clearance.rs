@@ -15,7 +15,7 @@ pub fn distance_to_geometry(scene: &Scene, point: Vec3) -> f32 {
         .enumerate()
         .map(|(k, instance)| {
             let bounds = scene.primitives[instance.primitive as usize].bounds;
-            (distance_to_bounds(&world_bounds(bounds, &instance.world_from_object), point), k)
+            (distance_to_bounds(&world_bounds(bounds, &instance.world_from_object.as_mat4()), point), k)
         })
         .collect();
     candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -26,7 +26,8 @@ pub fn distance_to_geometry(scene: &Scene, point: Vec3) -> f32 {
         }
         let instance = &scene.instances[k];
         let primitive = &scene.primitives[instance.primitive as usize];
-        best = best.min(distance_to_primitive(scene, primitive, &instance.world_from_object, point));
+        best =
+            best.min(distance_to_primitive(scene, primitive, &instance.world_from_object.as_mat4(), point));
     }
     best
 }

@@ -24,10 +24,10 @@ fn lists_of(
     let room = Capacities { visible_clusters: grid.cluster_count() as u32, light_indices: 6_000_000 };
     let config = Config { assign: vec![assign], test: vec![test], ..config() };
     let mut bench = Bench::with_config(&config, method, grid, most, room);
-    let plan = FramePlan { frame: 0, views: vec![view()], grids: vec![grid] };
+    let plan = frame_of(grid);
     sets.iter()
         .map(|lights| {
-            bench.engine.write_host_data(&mut bench.session, 0, &plan, lights);
+            bench.engine.write_host_data(&mut bench.session, 0, &plan, lights).unwrap();
             if lists_room == Room::None {
                 let grid = &bench.engine.clusterings[0].grids[0];
                 grid.write(offset_of!(GridData, mask_capacity) as u64, &[0u32]);

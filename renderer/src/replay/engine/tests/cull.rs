@@ -75,7 +75,7 @@ fn compare(scene: &str) {
     let mut counts = vec![];
     for view in views() {
         let plan = FramePlan { frame: 0, views: vec![view], grids: vec![box_grid([8, 1, 1])] };
-        bench.engine.write_host_data(&mut bench.session, 0, &plan, &lights(10));
+        bench.engine.write_host_data(&mut bench.session, 0, &plan, &lights(10)).unwrap();
         let (device, commands) = drawn(&mut bench);
         assert_eq!(drawn(&mut bench), (device.clone(), commands.clone()), "a second run differs");
         let twin = cpu::cull(&boxes, &[view], EPSILON);

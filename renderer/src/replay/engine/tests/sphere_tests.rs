@@ -137,3 +137,14 @@ fn no_touching_light_is_lost_however_large() {
     no_touching_light_is_lost(PERSP, frustum_grid([7, 6, 13]), 20_000.0);
     no_touching_light_is_lost(ORTHO, box_grid([11, 9, 13]), 20_000.0);
 }
+
+/// Camera, grid and lights as far from the world's origin as recordings go. Lights are where single precision can have them.
+#[test]
+fn no_touching_light_is_lost_anywhere_in_the_world() {
+    for away in [1e3, 1e4, 1e5, 1e6] {
+        let direction = DVec3::new(0.6, 0.1, -0.8);
+        for (method, grid) in [(PERSP, frustum_grid([7, 6, 13])), (ORTHO, box_grid([11, 9, 13]))] {
+            no_touching_light_is_lost(method, grid.relative_to(direction * -away), 30.0);
+        }
+    }
+}

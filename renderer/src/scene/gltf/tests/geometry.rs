@@ -32,7 +32,7 @@ fn nested_transforms_multiply() {
     assert_eq!(scene.primitives.len(), 1);
     assert_eq!(scene.instances.len(), 3);
     for (instance, expected) in scene.instances.iter().zip(expected) {
-        assert!(instance.world_from_object.abs_diff_eq(expected, 1e-5), "{instance:?}");
+        assert!(instance.world_from_object.abs_diff_eq(expected.as_dmat4(), 1e-5), "{instance:?}");
     }
     assert_eq!(scene.triangle_count(), 3);
 }

@@ -12,7 +12,11 @@ fn positions(asset: &Asset) -> Vec<[f32; 3]> {
 /// World positions of the first instance's vertices.
 fn world_positions(scene: &Scene) -> Vec<Vec3> {
     let world = scene.instances[0].world_from_object;
-    scene.vertices.iter().map(|v| world.transform_point3(Vec3::from(v.position))).collect()
+    scene
+        .vertices
+        .iter()
+        .map(|v| world.transform_point3(Vec3::from(v.position).as_dvec3()).as_vec3())
+        .collect()
 }
 
 #[test]
@@ -38,7 +42,7 @@ fn instances_stand_relative_to_their_node() {
     assert_eq!(scene.instances.len(), expected.len());
     for (instance, (scale, translation)) in scene.instances.iter().zip(expected) {
         let expected = Mat4::from_scale_rotation_translation(scale, turn, translation);
-        assert!(instance.world_from_object.abs_diff_eq(expected, 1e-5), "{instance:?}");
+        assert!(instance.world_from_object.as_mat4().abs_diff_eq(expected, 1e-5), "{instance:?}");
     }
     assert_eq!((scene.triangle_count(), scene.primitives.len()), (2, 1));
     assert_eq!(scene.warnings, ["nodes scaled to nothing and left out: 1"]);
@@ -167,7 +171,10 @@ pub fn skinned() -> Asset {
 #[test]
 fn skinned_vertices_follow_their_joints_and_not_their_node() {
     let scene = skinned().load().unwrap();
-    assert_eq!(scene.instances[0].world_from_object, Mat4::from_translation(Vec3::new(0.0, 0.0, 2.0)));
+    assert_eq!(
+        scene.instances[0].world_from_object.as_mat4(),
+        Mat4::from_translation(Vec3::new(0.0, 0.0, 2.0))
+    );
     let expected = [Vec3::new(0.0, 2.0, 2.0), Vec3::new(1.0, 0.0, 2.0), Vec3::new(0.0, 5.0, 2.0)];
     for (found, expected) in world_positions(&scene).into_iter().zip(expected) {
         assert!(found.abs_diff_eq(expected, 1e-5), "{found} for {expected}");
