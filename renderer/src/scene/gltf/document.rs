@@ -11,11 +11,14 @@ use super::uri::{self, Target};
 use crate::{Error, Result};
 
 /// Extensions that a file may require.
-const SUPPORTED: [&str; 4] = [
+const SUPPORTED: [&str; 7] = [
+    "EXT_texture_webp",
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_mesh_quantization",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
+    "MSFT_texture_dds",
 ];
 
 /// A parsed file with the bytes of its buffers. Indices within `root` are not yet trusted.

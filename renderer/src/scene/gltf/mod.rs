@@ -10,6 +10,7 @@
 //! directional lights.
 
 mod accessor;
+mod choice;
 mod document;
 mod material;
 mod nodes;
