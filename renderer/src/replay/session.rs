@@ -12,6 +12,7 @@ use crate::pass::{FrameTracker, Timestamps};
 use crate::passes::readback::STATE_BYTES;
 use crate::pipelines::{self, COLOR_FORMAT, DEPTH_FORMAT, PipelineStore};
 use crate::scene::Scene;
+use crate::texture_sets::drawn_sets;
 use crate::vk::{Buffer, Context, DeviceOptions, Image, ImageDesc, Memory, ShaderLibrary};
 use crate::{Error, Result, gpu_interface};
 use ash::vk;
@@ -177,7 +178,7 @@ impl Session {
             batches,
             draws: draw_buffers(&context, views, draw_slots.counts)?,
             draw_slots,
-            store: PipelineStore::new(&context, &layouts, shaders, views),
+            store: PipelineStore::new(&context, &layouts, shaders, (views, drawn_sets(scene))),
             layouts,
             tracker: FrameTracker::default(),
             context,
