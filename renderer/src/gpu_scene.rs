@@ -7,6 +7,7 @@ use crate::gpu_interface::{InstanceData, MaterialData};
 use crate::layouts::{DescriptorSets, Layouts, MATERIAL_SET, MATERIAL_TEXTURES};
 use crate::placements::{Placement, near_vertices, placements};
 use crate::scene::{Image, Material, Sampler, Scene, TextureRef, TextureSlot, Wrap};
+use crate::texture_sets::TextureSet;
 use crate::vk::{self as gpu, Buffer, Context, SamplerCache};
 use ash::vk;
 use glam::DVec3;
@@ -32,6 +33,8 @@ pub struct GpuScene {
     pub batches: Vec<Batch>,
     /// The textures of each material.
     pub material_sets: Vec<vk::DescriptorSet>,
+    /// Which of them each samples.
+    pub texture_sets: Vec<TextureSet>,
     _materials: Buffer,
     _sets: DescriptorSets,
     _textures: Vec<gpu::Image>,
@@ -81,6 +84,7 @@ impl GpuScene {
             draw_slots: Buffer::with_data(context, "draw slots", storage, &slots.slots)?,
             batches: batches.batches.clone(),
             material_sets: sets.sets.clone(),
+            texture_sets: scene.materials.iter().map(TextureSet::of).collect(),
             _materials: materials,
             _sets: sets,
             _textures: textures,

@@ -8,7 +8,7 @@ mod variant;
 
 pub use debug::DebugPipelines;
 pub use requirements::check_device;
-pub use variant::Variant;
+pub use variant::{Variant, lights_at_once};
 
 use variant::Defines;
 
@@ -18,11 +18,12 @@ use crate::config::Culling;
 use crate::draw_list::SurfaceKind;
 use crate::layouts::Layouts;
 use crate::methods::MethodSpec;
-use crate::scene::Vertex;
+use crate::scene::{TextureSlot, Vertex};
+use crate::texture_sets::TextureSet;
 use crate::views::ViewSet;
 use crate::vk::{self as gpu, Context, GraphicsDesc, Pipeline, ShaderLibrary};
 use ash::vk;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::mem::offset_of;
 use std::sync::Arc;
 
@@ -106,8 +107,8 @@ pub struct Pipelines {
     pub depth_opaque: Arc<Pipeline>,
     /// Prepass of masked geometry.
     pub depth_masked: Arc<Pipeline>,
-    /// Forward shading, by [`SurfaceKind`].
-    pub shade: [Arc<Pipeline>; 3],
+    /// Forward shading, by [`SurfaceKind`] and by the textures of the material.
+    pub shade: [BTreeMap<TextureSet, Arc<Pipeline>>; 3],
     /// What is known of each pixel, for images.
     pub pixel_maps: Arc<Pipeline>,
     clustered: Option<ClusteredPipelines>,
@@ -137,6 +138,7 @@ pub struct PipelineStore {
     layouts: Arc<Layouts>,
     shaders: ShaderLibrary,
     views: ViewSet,
+    texture_sets: [BTreeSet<TextureSet>; 3],
     made: BTreeMap<String, Arc<Pipeline>>,
 }
 
@@ -149,19 +151,20 @@ enum Output {
     Marks(SurfaceKind),
     /// Tests depth; counts fragments of clusters.
     Counts(SurfaceKind),
-    /// Tests depth; writes colour.
-    Shades(SurfaceKind),
+    /// Tests depth; writes colour, of which these textures are a part.
+    Shades(SurfaceKind, TextureSet),
 }
 
 impl PipelineStore {
-    /// An empty store, for pipelines that draw `views`.
+    /// An empty store, for pipelines that draw `views` of surfaces with these textures, by [`SurfaceKind`].
     pub fn new(
         context: &Arc<Context>,
         layouts: &Arc<Layouts>,
         shaders: ShaderLibrary,
-        views: ViewSet,
+        (views, texture_sets): (ViewSet, [BTreeSet<TextureSet>; 3]),
     ) -> Self {
-        Self { context: context.clone(), layouts: layouts.clone(), shaders, views, made: BTreeMap::new() }
+        let (context, layouts) = (context.clone(), layouts.clone());
+        Self { context, layouts, shaders, views, texture_sets, made: BTreeMap::new() }
     }
 
     /// All pipelines of a variant.
@@ -182,11 +185,23 @@ impl PipelineStore {
             cull,
             depth_opaque: self.graphics(variant, None, Output::Depth)?,
             depth_masked: self.graphics(variant, Some("geometry/alpha_test.frag"), Output::Depth)?,
-            shade: self.per_kind(variant, "shade/forward.frag", Output::Shades)?,
+            shade: self.shade(variant)?,
             pixel_maps: self.compute("measure/pixel_maps.comp", &variant.defines())?,
             clustered,
             accelerated,
         })
+    }
+
+    fn shade(&mut self, variant: &Variant) -> Result<[BTreeMap<TextureSet, Arc<Pipeline>>; 3]> {
+        let mut shade = [const { BTreeMap::new() }; 3];
+        for (kind, sets) in SurfaceKind::ALL.into_iter().zip(self.texture_sets.clone()) {
+            for set in sets {
+                let output = Output::Shades(kind, set);
+                let pipeline = self.graphics(variant, Some("shade/forward.frag"), output)?;
+                shade[kind as usize].insert(set, pipeline);
+            }
+        }
+        Ok(shade)
     }
 
     fn accelerated(&mut self, variant: &Variant) -> Result<AcceleratedPipelines> {
@@ -294,9 +309,10 @@ impl PipelineStore {
         }
         let vertex = self.shaders.compile("geometry/surface.vert", &defines.0)?;
         let code = fragment.map(|path| self.shaders.compile(path, &defines.0)).transpose()?;
-        let attributes = vertex_attributes(varyings(fragment.is_some(), output));
+        let attributes =
+            vertex_attributes(varyings(fragment.is_some(), output), textures(fragment.is_some(), output));
         let spec = [(0, variant.attenuation as u32)];
-        let shades = matches!(output, Output::Shades(_));
+        let shades = matches!(output, Output::Shades(..));
         let desc = GraphicsDesc {
             vertex: &vertex,
             fragment: code.as_deref().map(Vec::as_slice),
@@ -312,7 +328,7 @@ impl PipelineStore {
             depth_compare: Some(depth_compare(output)),
             depth_format: Some(DEPTH_FORMAT),
             color_format: shades.then_some(COLOR_FORMAT),
-            blend: output == Output::Shades(SurfaceKind::Transparent),
+            blend: matches!(output, Output::Shades(SurfaceKind::Transparent, _)),
             samples: vk::SampleCountFlags::from_raw(variant.samples),
             sample_shading: variant.per_sample() && output != Output::Depth,
             ..Default::default()
@@ -329,12 +345,18 @@ fn graphics_defines(variant: &Variant, textured: bool, output: Output) -> Define
         Culling::Cpu => "CULLING_CPU",
         Culling::Gpu => "CULLING_GPU",
     };
-    let defines = variant.defines().with("CULLING", culling).with("VARYINGS", varyings(textured, output));
+    let defines = variant
+        .defines()
+        .with("CULLING", culling)
+        .with("VARYINGS", varyings(textured, output))
+        .with("TEXTURES", textures(textured, output).bits());
     match output {
         Output::Depth => defines,
         Output::Marks(_) => defines.with("COUNT_FRAGMENTS", 0),
         Output::Counts(_) => defines.with("COUNT_FRAGMENTS", 1),
-        Output::Shades(kind) => defines.with("TRANSPARENT", u32::from(kind == SurfaceKind::Transparent)),
+        Output::Shades(kind, _) => defines
+            .with("TRANSPARENT", u32::from(kind == SurfaceKind::Transparent))
+            .with("LIGHTS_AT_ONCE", variant.lights_at_once),
     }
 }
 
@@ -343,7 +365,16 @@ fn varyings(textured: bool, output: Output) -> u32 {
     match output {
         Output::Depth => u32::from(textured),
         Output::Marks(_) | Output::Counts(_) => 0,
-        Output::Shades(_) => 2,
+        Output::Shades(..) => 2,
+    }
+}
+
+/// The textures that a pipeline samples.
+fn textures(textured: bool, output: Output) -> TextureSet {
+    match output {
+        Output::Depth if textured => TextureSet::BASE_COLOR,
+        Output::Depth | Output::Marks(_) | Output::Counts(_) => TextureSet::NONE,
+        Output::Shades(_, set) => set,
     }
 }
 
@@ -351,25 +382,26 @@ fn varyings(textured: bool, output: Output) -> u32 {
 fn depth_compare(output: Output) -> vk::CompareOp {
     match output {
         Output::Depth => vk::CompareOp::GREATER,
-        Output::Marks(kind) | Output::Counts(kind) | Output::Shades(kind) => match kind {
+        Output::Marks(kind) | Output::Counts(kind) | Output::Shades(kind, _) => match kind {
             SurfaceKind::Transparent => vk::CompareOp::GREATER_OR_EQUAL,
             SurfaceKind::Opaque | SurfaceKind::Masked => vk::CompareOp::EQUAL,
         },
     }
 }
 
-fn vertex_attributes(varyings: u32) -> Vec<vk::VertexInputAttributeDescription> {
+fn vertex_attributes(varyings: u32, textures: TextureSet) -> Vec<vk::VertexInputAttributeDescription> {
     use vk::Format as F;
+    let (uv, tangent) = (textures != TextureSet::NONE, textures.has(TextureSlot::Normal));
     let all = [
-        (0, 0, F::R32G32B32_SFLOAT, offset_of!(Vertex, position)),
-        (1, 2, F::R32G32B32_SFLOAT, offset_of!(Vertex, normal)),
-        (2, 2, F::R32G32B32A32_SFLOAT, offset_of!(Vertex, tangent)),
-        (3, 1, F::R32G32_SFLOAT, offset_of!(Vertex, uv)),
-        (4, 1, F::R32G32_SFLOAT, offset_of!(Vertex, uv) + size_of::<[f32; 2]>()),
-        (5, 1, F::R8G8B8A8_UNORM, offset_of!(Vertex, color)),
+        (0, true, F::R32G32B32_SFLOAT, offset_of!(Vertex, position)),
+        (1, varyings >= 2, F::R32G32B32_SFLOAT, offset_of!(Vertex, normal)),
+        (2, varyings >= 2 && tangent, F::R32G32B32A32_SFLOAT, offset_of!(Vertex, tangent)),
+        (3, varyings >= 1 && uv, F::R32G32_SFLOAT, offset_of!(Vertex, uv)),
+        (4, varyings >= 1 && uv, F::R32G32_SFLOAT, offset_of!(Vertex, uv) + size_of::<[f32; 2]>()),
+        (5, varyings >= 1, F::R8G8B8A8_UNORM, offset_of!(Vertex, color)),
     ];
     all.into_iter()
-        .filter(|&(_, needed, ..)| needed <= varyings)
+        .filter(|&(_, needed, ..)| needed)
         .map(|(location, _, format, offset)| vk::VertexInputAttributeDescription {
             location,
             binding: 0,

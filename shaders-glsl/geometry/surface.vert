@@ -2,24 +2,35 @@
 //
 // VIEWS: how many views are drawn at once, a layer of the target each: then every instance comes as often, view by view. 0
 // for one view, whose number is pushed.
-// VARYINGS: 0 position alone, 1 with texture coordinates and colour (alpha test), 2 with the tangent frame.
+// VARYINGS: 0 position alone, 1 with colour and texture coordinates (alpha test), 2 with the normal and tangent.
+// TEXTURES: those of the material that are sampled; without any there are no texture coordinates, without a normal map no
+// tangent.
 #version 460
 #extension GL_ARB_shader_viewport_layer_array : require
+#include "generated/gpu_interface.glsl"
 #include "lib/mirror.glsl"
+#include "lib/texture_slots.glsl"
 
 layout(location = 0) in vec3 position;
-#if VARYINGS >= 1
+#define TEXTURED (VARYINGS >= 1 && TEXTURES != 0)
+#define NORMAL_MAPPED (VARYINGS >= 2 && HAS_TEXTURE(NORMAL))
+
+#if TEXTURED
 layout(location = 3) in vec2 uv0;
 layout(location = 4) in vec2 uv1;
-layout(location = 5) in vec4 color;
 layout(location = 0) out vec4 out_uv;
+#endif
+#if VARYINGS >= 1
+layout(location = 5) in vec4 color;
 layout(location = 1) out vec4 out_color;
+#endif
+#if NORMAL_MAPPED
+layout(location = 2) in vec4 tangent;
+layout(location = 3) out vec4 out_tangent;
 #endif
 #if VARYINGS >= 2
 layout(location = 1) in vec3 normal;
-layout(location = 2) in vec4 tangent;
 layout(location = 2) out vec3 out_normal;
-layout(location = 3) out vec4 out_tangent;
 #if VIEWS
 layout(location = 4) flat out uint out_view;
 #endif
@@ -62,8 +73,10 @@ void main()
 #if VIEWS
     clip_other_handedness(view);
 #endif
-#if VARYINGS >= 1
+#if TEXTURED
     out_uv = vec4(uv0, uv1);
+#endif
+#if VARYINGS >= 1
     out_color = color;
 #endif
 #if VARYINGS >= 2
@@ -76,6 +89,8 @@ void main()
 #if VIEWS
     out_view = view;
 #endif
+#endif
+#if NORMAL_MAPPED
     out_tangent = vec4(linear * tangent.xyz, mirrored * tangent.w);
 #endif
 }

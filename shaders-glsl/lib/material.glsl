@@ -2,12 +2,13 @@
 #pragma once
 
 #include "generated/gpu_interface.glsl"
+#include "lib/texture_slots.glsl"
 
-layout(set = SET_MATERIAL, binding = 0) uniform sampler2D base_color_texture;
-layout(set = SET_MATERIAL, binding = 1) uniform sampler2D metallic_roughness_texture;
-layout(set = SET_MATERIAL, binding = 2) uniform sampler2D normal_texture;
-layout(set = SET_MATERIAL, binding = 3) uniform sampler2D occlusion_texture;
-layout(set = SET_MATERIAL, binding = 4) uniform sampler2D emissive_texture;
+layout(set = SET_MATERIAL, binding = BASE_COLOR) uniform sampler2D base_color_texture;
+layout(set = SET_MATERIAL, binding = METALLIC_ROUGHNESS) uniform sampler2D metallic_roughness_texture;
+layout(set = SET_MATERIAL, binding = NORMAL) uniform sampler2D normal_texture;
+layout(set = SET_MATERIAL, binding = OCCLUSION) uniform sampler2D occlusion_texture;
+layout(set = SET_MATERIAL, binding = EMISSIVE) uniform sampler2D emissive_texture;
 layout(set = SET_MATERIAL, binding = 5, scalar) uniform Material { MaterialData material; };
 
 // Both sets of texture coordinates of a fragment, and how they change from pixel to pixel.
@@ -35,7 +36,43 @@ vec4 sample_texture(sampler2D image, uint slot, TextureCoordinates at)
     return textureGrad(image, uv, dx, dy);
 }
 
+// A texture that a material lacks is white: only those of TEXTURES are sampled, whose number is most of what shading costs
+// where lights are few.
 vec4 base_color(TextureCoordinates at, vec4 color)
 {
-    return material.base_color * color * sample_texture(base_color_texture, 0u, at);
+    vec4 base = material.base_color * color;
+#if HAS_TEXTURE(BASE_COLOR)
+    base *= sample_texture(base_color_texture, BASE_COLOR, at);
+#endif
+    return base;
 }
+
+// Metalness, perceptual roughness.
+vec2 metallic_roughness(TextureCoordinates at)
+{
+    vec2 factors = vec2(material.metallic, material.roughness);
+#if HAS_TEXTURE(METALLIC_ROUGHNESS)
+    factors *= sample_texture(metallic_roughness_texture, METALLIC_ROUGHNESS, at).bg;
+#endif
+    return factors;
+}
+
+// 1 where nothing is occluded.
+float occlusion(TextureCoordinates at)
+{
+#if HAS_TEXTURE(OCCLUSION)
+    return mix(1.0, sample_texture(occlusion_texture, OCCLUSION, at).r, material.occlusion_strength);
+#else
+    return 1.0;
+#endif
+}
+
+vec3 emissive(TextureCoordinates at)
+{
+    vec3 radiance = material.emissive;
+#if HAS_TEXTURE(EMISSIVE)
+    radiance *= sample_texture(emissive_texture, EMISSIVE, at).rgb;
+#endif
+    return radiance;
+}
+

@@ -7,12 +7,8 @@
 #include "lib/counters.glsl"
 #include "lib/light.glsl"
 
-// Lights that are evaluated in one turn of the loop: lavapipe ends a shader's loops after 65 535 turns, in silence.
-#if LOOKUP == LOOKUP_ALL_LIGHTS
-const uint AT_ONCE = 16u;
-#else
-const uint AT_ONCE = 4u;
-#endif
+// Lights that are evaluated in one turn of the loop.
+const uint AT_ONCE = LIGHTS_AT_ONCE;
 
 // Evaluates one light; true where it reaches the surface.
 bool shade_light(LightData light, Surface surface, inout vec3 radiance)

@@ -14,10 +14,16 @@
 // depth has passed the alpha test there; a second alpha test could decide otherwise in the last bit and leave a hole.
 layout(early_fragment_tests) in;
 
+#if TEXTURES != 0
 layout(location = 0) in vec4 uv;
+#else
+const vec4 uv = vec4(0.0);
+#endif
 layout(location = 1) in vec4 color;
 layout(location = 2) in vec3 normal;
+#if HAS_TEXTURE(NORMAL)
 layout(location = 3) in vec4 tangent;
+#endif
 #if VIEWS
 layout(location = 4) flat in uint view_index;
 #endif
@@ -43,22 +49,25 @@ vec3 shading_normal(TextureCoordinates at)
 {
     float facing = gl_FrontFacing ? 1.0 : -1.0;
     vec3 n = normalize(normal);
+#if HAS_TEXTURE(NORMAL)
     vec3 t = tangent.xyz - n * dot(n, tangent.xyz);
-    vec3 mapped = sample_texture(normal_texture, 2u, at).xyz * 2.0 - 1.0;
+    vec3 mapped = sample_texture(normal_texture, NORMAL, at).xyz * 2.0 - 1.0;
     mapped.xy *= material.normal_scale;
-    if (dot(t, t) < 1e-12)
-        return facing * n;
-    t = normalize(t);
-    vec3 b = cross(n, t) * sign(tangent.w);
-    return facing * normalize(t * mapped.x + b * mapped.y + n * mapped.z);
+    if (dot(t, t) >= 1e-12) {
+        t = normalize(t);
+        vec3 b = cross(n, t) * sign(tangent.w);
+        n = normalize(t * mapped.x + b * mapped.y + n * mapped.z);
+    }
+#endif
+    return facing * n;
 }
 
 Surface surface_at(TextureCoordinates at, ViewData view, vec3 base)
 {
     vec3 position = (view.world_from_view * vec4(view_position(view, fragment_pixel(), gl_FragCoord.z), 1.0)).xyz;
-    vec4 metallic_roughness = sample_texture(metallic_roughness_texture, 1u, at);
-    float metallic = clamp(material.metallic * metallic_roughness.b, 0.0, 1.0);
-    float roughness = clamp(material.roughness * metallic_roughness.g, 0.05, 1.0);
+    vec2 factors = metallic_roughness(at);
+    float metallic = clamp(factors.x, 0.0, 1.0);
+    float roughness = clamp(factors.y, 0.05, 1.0);
     return Surface(position, shading_normal(at), normalize(view.world_from_view[3].xyz - position),
                    base * (1.0 - metallic), mix(vec3(0.04), base, metallic), roughness * roughness);
 }
@@ -83,9 +92,7 @@ void main()
         radiance = base.rgb;
         count_fragment(0u, 0u, 0u);
     } else {
-        float occlusion = sample_texture(occlusion_texture, 3u, at).r;
-        radiance = AMBIENT * base.rgb * mix(1.0, occlusion, material.occlusion_strength);
-        radiance += material.emissive * sample_texture(emissive_texture, 4u, at).rgb;
+        radiance = AMBIENT * base.rgb * occlusion(at) + emissive(at);
         radiance += shade_lights(surface_at(at, view, base.rgb), cursor);
     }
     // Half floats end at 65504; a light grazed at R0 may exceed that.

@@ -1,6 +1,6 @@
 //! Stage `clay` of stills: opaque and masked surfaces without their shading, so that every camera sees something.
 
-use super::draws;
+use super::draws::{self, Pipelines};
 use crate::draw_list::SurfaceKind;
 use crate::frame::{Eyes, Frame};
 use crate::pass::{Access, Recorder, Use};
@@ -11,8 +11,20 @@ use ash::vk;
 pub fn record(r: &mut Recorder, frame: &Frame, pipelines: &DebugPipelines, view: usize) {
     r.scope(("clay", view), |r| {
         begin_over_prepass(r, frame, view);
-        draws::draw(r, frame, Eyes::One(view), &pipelines.clay[0], (SurfaceKind::Opaque, true));
-        draws::draw(r, frame, Eyes::One(view), &pipelines.clay[1], (SurfaceKind::Masked, true));
+        draws::draw(
+            r,
+            frame,
+            Eyes::One(view),
+            Pipelines::One(&pipelines.clay[0]),
+            (SurfaceKind::Opaque, true),
+        );
+        draws::draw(
+            r,
+            frame,
+            Eyes::One(view),
+            Pipelines::One(&pipelines.clay[1]),
+            (SurfaceKind::Masked, true),
+        );
         draws::end_rendering(r);
     });
 }

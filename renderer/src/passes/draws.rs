@@ -4,8 +4,11 @@ use crate::draw_list::{DrawRun, SurfaceKind};
 use crate::frame::{Draws, Eyes, Frame, Layer};
 use crate::gpu_interface::{DrawCommand, SET_BUFFERS, SET_MATERIAL};
 use crate::pass::{Access, Recorder, Use};
+use crate::texture_sets::TextureSet;
 use crate::vk::{Buffer, Pipeline};
 use ash::vk;
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Opens dynamic rendering over whole views and sets the viewport (flipped, so that +Y stays up).
 pub fn begin_rendering(
@@ -76,19 +79,38 @@ pub fn depth_attachment(frame: &Frame, eyes: Eyes, clear: bool) -> vk::Rendering
         .clear_value(vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth: 0.0, stencil: 0 } })
 }
 
-/// Draws one kind of surface with one pipeline; material textures are bound where the pipeline reads them.
+/// What draws surfaces of a kind.
+#[derive(Clone, Copy)]
+pub enum Pipelines<'a> {
+    /// The same for all.
+    One(&'a Pipeline),
+    /// By the textures of the material.
+    ByTextures(&'a BTreeMap<TextureSet, Arc<Pipeline>>),
+}
+
+/// Draws one kind of surface; material textures are bound where the pipelines read them.
 pub fn draw(
     r: &Recorder,
     frame: &Frame,
     eyes: Eyes,
-    pipeline: &Pipeline,
+    pipelines: Pipelines,
     (kind, textured): (SurfaceKind, bool),
 ) {
     if !frame.draws_any(eyes, kind) {
         return;
     }
-    frame.bind(r, vk::PipelineBindPoint::GRAPHICS, pipeline, eyes.first());
-    let mut state = SurfaceState { textured, mirrored: false, material: None, facing: None };
+    let mut state = SurfaceState {
+        pipelines,
+        view: eyes.first(),
+        textured,
+        mirrored: false,
+        textures: None,
+        material: None,
+        facing: None,
+    };
+    if let Pipelines::One(pipeline) = pipelines {
+        frame.bind(r, vk::PipelineBindPoint::GRAPHICS, pipeline, state.view);
+    }
     // Views drawn at once take a draw for each way that faces turn, and leave out what is not of it.
     for mirrored in [false, true].into_iter().filter(|&way| frame.any_mirrored(eyes, way)) {
         state.mirrored = mirrored;
@@ -146,18 +168,27 @@ fn draw_commands(r: &Recorder, commands: &Buffer, first: u64, count: u32) {
     }
 }
 
-/// The textures bound and the facing set, so that neither is set twice.
-struct SurfaceState {
+/// The pipeline and textures bound and the facing set, so that none is set twice.
+struct SurfaceState<'a> {
+    pipelines: Pipelines<'a>,
+    view: usize,
     textured: bool,
     /// Whether what is drawn is seen in a mirror.
     mirrored: bool,
+    textures: Option<TextureSet>,
     material: Option<u32>,
     facing: Option<(bool, bool)>,
 }
 
-impl SurfaceState {
+impl SurfaceState<'_> {
     fn set(&mut self, r: &Recorder, frame: &Frame, batch: u32) {
         let batch = &frame.scene.batches[batch as usize];
+        if let Pipelines::ByTextures(pipelines) = self.pipelines {
+            let textures = frame.scene.texture_sets[batch.material as usize];
+            if self.textures.replace(textures) != Some(textures) {
+                frame.bind(r, vk::PipelineBindPoint::GRAPHICS, &pipelines[&textures], self.view);
+            }
+        }
         if self.textured && self.material.replace(batch.material) != Some(batch.material) {
             let textures = frame.scene.material_sets[batch.material as usize];
             frame.bind_set(r, vk::PipelineBindPoint::GRAPHICS, SET_MATERIAL, textures);

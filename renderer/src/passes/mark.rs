@@ -1,7 +1,7 @@
 //! Stage `mark[v]`: which clusters hold visible fragments (Gelderen section 5.2). In atemporal runs the same
 //! fragments are visited once more, when clusters are ranked, to count those of each visible cluster.
 
-use super::draws;
+use super::draws::{self, Pipelines};
 use crate::config::Marking;
 use crate::draw_list::SurfaceKind;
 use crate::frame::{Eyes, Frame};
@@ -83,7 +83,7 @@ fn from_geometry(
     let eyes = Eyes::One(view);
     draws::begin_rendering(r, frame, eyes, None, &draws::depth_attachment(frame, eyes, false));
     for &kind in kinds {
-        draws::draw(r, frame, eyes, &pipelines.geometry[kind as usize], (kind, false));
+        draws::draw(r, frame, eyes, Pipelines::One(&pipelines.geometry[kind as usize]), (kind, false));
     }
     draws::end_rendering(r);
 }

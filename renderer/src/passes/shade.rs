@@ -2,7 +2,7 @@
 //! draws opaque and masked surfaces of all views at once, where they look lights up in one clustering; transparent ones are
 //! blended view by view, each in its own order.
 
-use super::draws;
+use super::draws::{self, Pipelines};
 use crate::draw_list::SurfaceKind;
 use crate::frame::{Eyes, Frame};
 use crate::pass::{Access, Recorder, Use};
@@ -52,7 +52,7 @@ fn surfaces(r: &mut Recorder, frame: &Frame, eyes: Eyes, kind: SurfaceKind) {
         .store_op(vk::AttachmentStoreOp::STORE)
         .clear_value(vk::ClearValue { color: vk::ClearColorValue { float32: BACKGROUND } });
     draws::begin_rendering(r, frame, eyes, Some(&color), &draws::depth_attachment(frame, eyes, false));
-    let pipeline = &frame.pipelines.shade[kind as usize];
-    draws::draw(r, frame, eyes, pipeline, (kind, true));
+    let pipelines = Pipelines::ByTextures(&frame.pipelines.shade[kind as usize]);
+    draws::draw(r, frame, eyes, pipelines, (kind, true));
     draws::end_rendering(r);
 }

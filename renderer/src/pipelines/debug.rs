@@ -5,6 +5,7 @@ use crate::Result;
 use crate::draw_list::SurfaceKind;
 use crate::passes::lines::Line;
 use crate::passes::spheres::{RINGS, SEGMENTS};
+use crate::texture_sets::TextureSet;
 use crate::vk::{self as gpu, GraphicsDesc, Pipeline};
 use ash::vk;
 use std::mem::offset_of;
@@ -30,8 +31,16 @@ impl PipelineStore {
         let clusters = "debug/pixel_clusters.comp";
         Ok(DebugPipelines {
             clay: [
-                self.graphics(variant, Some(clay), Output::Shades(SurfaceKind::Opaque))?,
-                self.graphics(variant, Some(clay), Output::Shades(SurfaceKind::Masked))?,
+                self.graphics(
+                    variant,
+                    Some(clay),
+                    Output::Shades(SurfaceKind::Opaque, TextureSet::BASE_COLOR),
+                )?,
+                self.graphics(
+                    variant,
+                    Some(clay),
+                    Output::Shades(SurfaceKind::Masked, TextureSet::BASE_COLOR),
+                )?,
             ],
             pixel_clusters: [
                 self.compute(clusters, &defines.with("WORLD_LOOKUP", 0))?,

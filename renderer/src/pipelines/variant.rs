@@ -25,10 +25,23 @@ pub struct Variant {
     pub assigner: Assigner,
     /// What decides who is on them.
     pub test: SphereTest,
+    /// Lights that shading evaluates in one turn of its loop.
+    pub lights_at_once: u32,
     /// How lights fade.
     pub attenuation: Attenuation,
     /// Whether counters are compiled in: the atemporal run.
     pub counting: bool,
+}
+
+/// Lights that shading evaluates in one turn of its loop, where a run has `lights` at most. Several cost less each, and
+/// lavapipe ends a shader's loops after 65 535 turns, in silence; but it runs a turn also where there are no lights.
+pub fn lights_at_once(method: MethodSpec, lights: u32) -> u32 {
+    match method {
+        MethodSpec::AllLights if lights < 16 => 1,
+        MethodSpec::AllLights => 16,
+        MethodSpec::Clustered { .. } if lights <= 512 => 1,
+        MethodSpec::Clustered { .. } => 4,
+    }
 }
 
 impl Variant {
@@ -44,7 +57,7 @@ impl Variant {
         self.multiview
             && match output {
                 Output::Depth => true,
-                Output::Shades(kind) => one_clustering && kind != SurfaceKind::Transparent,
+                Output::Shades(kind, _) => one_clustering && kind != SurfaceKind::Transparent,
                 Output::Marks(_) | Output::Counts(_) => false,
             }
     }
@@ -105,5 +118,18 @@ impl Defines {
         let mut defines = self.0.clone();
         defines.push((name, value.to_string()));
         Self(defines)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_loop_over_all_lights_reaches_the_turns_that_lavapipe_ends_it_after() {
+        for lights in [0, 1, 15, 16, 512, 513, 65_535, 1_000_000] {
+            let at_once = lights_at_once(MethodSpec::AllLights, lights);
+            assert!(at_once > 0 && lights.div_ceil(at_once) < 65_535, "{lights} lights, {at_once} at once");
+        }
     }
 }

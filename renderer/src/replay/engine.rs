@@ -17,7 +17,7 @@ use crate::measure::{Capacities, GrowthEvent};
 use crate::methods::MethodSpec;
 use crate::pass::{Recorder, ScopeTree};
 use crate::passes::readback::STATE_BYTES;
-use crate::pipelines::{Pipelines, Variant};
+use crate::pipelines::{Pipelines, Variant, lights_at_once};
 use crate::vk::{Buffer, Context, Memory};
 use ash::vk;
 use glam::{DVec3, Vec3};
@@ -73,6 +73,7 @@ pub fn variant(config: &Config, method: MethodSpec, mode: &Mode) -> Variant {
         marking: config.marking,
         assigner: assigner(method, mode),
         test: mode.test,
+        lights_at_once: lights_at_once(method, mode.lights),
         attenuation: config.attenuation,
         counting: mode.counting,
     }

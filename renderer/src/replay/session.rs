@@ -12,6 +12,7 @@ use crate::pass::{FrameTracker, Timestamps};
 use crate::passes::readback::STATE_BYTES;
 use crate::pipelines::{self, COLOR_FORMAT, DEPTH_FORMAT, PipelineStore};
 use crate::scene::Scene;
+use crate::texture_sets::drawn_sets;
 use crate::views::ViewSet;
 use crate::vk::{Buffer, Context, DeviceOptions, Image, ImageDesc, Memory, ShaderLibrary};
 use crate::{Error, Result, gpu_interface};
@@ -179,7 +180,7 @@ impl Session {
             batches,
             draws: draw_buffers(&context, views, draw_slots.counts)?,
             draw_slots,
-            store: PipelineStore::new(&context, &layouts, shaders, view_set),
+            store: PipelineStore::new(&context, &layouts, shaders, (view_set, drawn_sets(scene))),
             layouts,
             tracker: FrameTracker::default(),
             context,

@@ -1,13 +1,26 @@
-//! Images: decoding PNG and JPEG on all cores, into mip chains.
+//! Images: decoding on all cores, into mip chains.
+//!
+//! What an image file is, is told by its first bytes: exporters rename files and mistake their media types.
+
+pub(super) mod dds;
+mod ktx2;
+mod surface;
 
 use std::io::Cursor;
 use std::path::Path;
 
-use ::image::{DynamicImage, ImageFormat, ImageReader};
+use ::image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, guess_format};
 use rayon::prelude::*;
 
 use super::{Image, mips};
 use crate::{Error, Result};
+
+/// Most bytes of a decoded image, as the file has it or as RGBA: 16384x16384 texels of four bytes. It bounds what a small
+/// broken file makes the program allocate.
+const MOST_BYTES: u64 = 1 << 30;
+
+/// The kinds of files that are read, for messages.
+const KINDS: &str = "PNG, JPEG, WebP, TGA, BMP, DDS and KTX2";
 
 /// What the texels of an image mean, which decides how its mips are averaged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -44,26 +57,21 @@ pub(super) struct Encoded<'a> {
     pub name: &'a str,
     /// The file to blame if it is broken.
     pub file: &'a Path,
-    /// PNG or JPEG.
+    /// One of [`KINDS`].
     pub bytes: &'a [u8],
 }
 
 impl Encoded<'_> {
-    /// Decodes to RGBA texels: grey becomes equal RGB, 16 bits are rounded to 8.
-    pub fn decode(&self) -> Result<Pixels> {
+    /// Decodes the first level to RGBA texels of `content`: one channel becomes equal RGB, two of a normal map get the third,
+    /// numbers of other widths are rounded to 8 bits.
+    pub fn decode(&self, content: Content) -> Result<Pixels> {
         let fail = |what: String| Error::file(self.file, format!("image {}: {what}", self.name));
-        let reader = ImageReader::new(Cursor::new(self.bytes)).with_guessed_format();
-        let reader = reader.map_err(|e| fail(e.to_string()))?;
-        if !matches!(reader.format(), Some(ImageFormat::Png | ImageFormat::Jpeg)) {
-            return Err(fail("neither PNG nor JPEG".into()));
+        let Decoded { pixels, clipped } = decode(self.bytes, content).map_err(fail)?;
+        if clipped {
+            let file = self.file.display();
+            tracing::warn!("{file}: image {}: what is outside 0..1 is clipped to it", self.name);
         }
-        let image = reader.decode().map_err(|e| fail(format!("cannot be decoded: {}", one_line(&e))))?;
-        let has_alpha = image.color().has_alpha();
-        let size = [image.width(), image.height()];
-        if size.contains(&0) {
-            return Err(fail("has no texels".into()));
-        }
-        Ok(Pixels { size, has_alpha, texels: into_rgba8(image) })
+        Ok(pixels)
     }
 }
 
@@ -71,10 +79,79 @@ impl Encoded<'_> {
 pub(super) struct Pixels {
     /// Width, height.
     pub size: [u32; 2],
-    /// The file had an alpha channel.
+    /// The file had an alpha channel; of formats that always have one, whether anything is not opaque.
     pub has_alpha: bool,
     /// Row-major RGBA.
     pub texels: Vec<u8>,
+}
+
+/// A decoded image, and whether it held numbers that 8 bits cannot hold.
+struct Decoded {
+    pixels: Pixels,
+    clipped: bool,
+}
+
+impl From<Pixels> for Decoded {
+    fn from(pixels: Pixels) -> Self {
+        Self { pixels, clipped: false }
+    }
+}
+
+fn decode(bytes: &[u8], content: Content) -> Result<Decoded, String> {
+    if bytes.starts_with(b"DDS ") {
+        return dds::decode(bytes, content);
+    }
+    if bytes.starts_with(&::ktx2::MAGIC) {
+        return ktx2::decode(bytes, content);
+    }
+    match guess_format(bytes) {
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP | ImageFormat::Bmp)) => {
+            decode_plain(bytes, format)
+        }
+        Ok(format) => Err(format!("is {format:?}; {KINDS} are read")),
+        Err(_) if looks_like_tga(bytes) => decode_plain(bytes, ImageFormat::Tga),
+        Err(_) => Err(format!("is none of {KINDS}")),
+    }
+}
+
+fn decode_plain(bytes: &[u8], format: ImageFormat) -> Result<Decoded, String> {
+    let broken = |e: ::image::ImageError| format!("cannot be decoded: {}", one_line(&e));
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    let mut limits = Limits::no_limits();
+    limits.max_alloc = Some(MOST_BYTES);
+    reader.limits(limits);
+    let decoder = reader.into_decoder().map_err(broken)?;
+    let size = <[u32; 2]>::from(decoder.dimensions());
+    check_size(size, decoder.color_type().bytes_per_pixel().into())?;
+    let image = DynamicImage::from_decoder(decoder).map_err(broken)?;
+    let has_alpha = image.color().has_alpha();
+    Ok(Pixels { size, has_alpha, texels: into_rgba8(image) }.into())
+}
+
+/// Refuses, before anything of that size is allocated, what is empty or over [`MOST_BYTES`].
+fn check_size([width, height]: [u32; 2], bytes_per_texel: u64) -> Result<(), String> {
+    if width == 0 || height == 0 {
+        return Err("has no texels".into());
+    }
+    let bytes = u128::from(width) * u128::from(height) * u128::from(bytes_per_texel.max(4));
+    if bytes > MOST_BYTES.into() {
+        let (mebibytes, most) = (bytes >> 20, MOST_BYTES >> 20);
+        return Err(format!(
+            "is {width}x{height} texels, {mebibytes} MiB decoded; at most {most} MiB are: scale it down"
+        ));
+    }
+    Ok(())
+}
+
+/// TGA files begin with no signature: whether the header is one (Truevision TGA 2.0, section 'TGA file header').
+fn looks_like_tga(bytes: &[u8]) -> bool {
+    let Some(&[_, palette, kind, .., depth, _]) = bytes.first_chunk::<18>() else { return false };
+    let palette_fits = match kind {
+        1 | 9 => palette == 1,
+        2 | 3 | 10 | 11 => palette <= 1,
+        _ => false,
+    };
+    palette_fits && matches!(depth, 8 | 15 | 16 | 24 | 32)
 }
 
 fn into_rgba8(image: DynamicImage) -> Vec<u8> {
@@ -117,7 +194,11 @@ pub(super) mod tests {
     }
 
     fn decode(bytes: &[u8]) -> Result<Pixels> {
-        Encoded { name: "test", file: Path::new("test.gltf"), bytes }.decode()
+        Encoded { name: "test", file: Path::new("test.gltf"), bytes }.decode(Content::Data)
+    }
+
+    fn message(bytes: &[u8]) -> String {
+        decode(bytes).err().unwrap().to_string()
     }
 
     #[test]
@@ -144,13 +225,51 @@ pub(super) mod tests {
     }
 
     #[test]
+    fn the_kind_is_told_by_content() {
+        let rgba = ImageBuffer::from_fn(3, 2, |x, y| Rgba([x as u8, y as u8, 9, 200]));
+        for format in [ImageFormat::Png, ImageFormat::WebP, ImageFormat::Tga, ImageFormat::Bmp] {
+            let pixels = decode(&encode(rgba.clone(), format)).unwrap();
+            assert_eq!((pixels.size, pixels.has_alpha), ([3, 2], true), "{format:?}");
+            assert_eq!(pixels.texels, *rgba.as_raw(), "{format:?}");
+        }
+        assert_eq!(
+            message(b"GIF89a"),
+            "test.gltf: image test: is Gif; PNG, JPEG, WebP, TGA, BMP, DDS and KTX2 are read"
+        );
+    }
+
+    #[test]
     fn broken_files_are_named() {
         let mut bytes = png([8, 8], [1, 2, 3, 4]);
         bytes.truncate(bytes.len() / 2);
-        let message = decode(&bytes).err().unwrap().to_string();
-        assert!(message.starts_with("test.gltf: image test: cannot be decoded"), "{message}");
-        let message = decode(b"GIF89a").err().unwrap().to_string();
-        assert_eq!(message, "test.gltf: image test: neither PNG nor JPEG");
+        let text = message(&bytes);
+        assert!(text.starts_with("test.gltf: image test: cannot be decoded"), "{text}");
+        for bytes in [&b"what"[..], b"", b"a text that is longer than the header of a TGA file"] {
+            let none = "test.gltf: image test: is none of PNG, JPEG, WebP, TGA, BMP, DDS and KTX2";
+            assert_eq!(message(bytes), none);
+        }
+    }
+
+    /// A PNG of 8-bit RGBA that ends where its texels begin.
+    fn png_header(side: u32) -> Vec<u8> {
+        let header = [&b"IHDR"[..], &side.to_be_bytes(), &side.to_be_bytes(), &[8, 6, 0, 0, 0]].concat();
+        let mut sum = flate2::Crc::new();
+        sum.update(&header);
+        [b"\x89PNG\r\n\x1a\n\0\0\0\x0d", &header[..], &sum.sum().to_be_bytes(), b"\0\0\0\x10IDAT"].concat()
+    }
+
+    #[test]
+    fn the_limit_on_memory_is_ours_and_named() {
+        // 549 MiB, more than the decoder's own limit.
+        let text = message(&png_header(12_000));
+        assert!(!text.contains("imit"), "{text}");
+        assert_eq!(
+            message(&png_header(40_000)),
+            "test.gltf: image test: is 40000x40000 texels, 6103 MiB decoded; at most 1024 MiB are: scale it down"
+        );
+        assert_eq!(check_size([16384, 16384], 4), Ok(()));
+        assert!(check_size([16384, 16384], 8).is_err() && check_size([u32::MAX; 2], 16).is_err());
+        assert_eq!(check_size([0, 5], 4), Err("has no texels".into()));
     }
 
     #[test]

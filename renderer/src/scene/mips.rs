@@ -228,6 +228,11 @@ static SRGB: LazyLock<SrgbTables> = LazyLock::new(|| {
     SrgbTables { to_linear, from_linear }
 });
 
+/// The sRGB code nearest to linear light of 0 to 1.
+pub(super) fn srgb_code(light: f32) -> u8 {
+    SRGB.from_linear[(light * 65535.0).round() as usize]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

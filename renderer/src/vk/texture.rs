@@ -10,23 +10,36 @@ use std::sync::Arc;
 const BYTES_PER_TEXEL: usize = 4;
 
 /// Makes one image a scene image, in order, RGBA8 with all mips (sRGB where the image is), and copies the texels
-/// through one staging buffer of at most 64 MiB. All end in SHADER_READ_ONLY_OPTIMAL.
+/// through one staging buffer of at most 64 MiB. All end in SHADER_READ_ONLY_OPTIMAL. Of an image with sides that the
+/// device does not take, the levels that it takes are left, with a warning.
 ///
 /// # Errors
-/// [`Error::Device`] when an image is too large for the device or the memory is out.
+/// [`Error::Device`] when the memory is out.
 pub fn upload_textures(context: &Arc<Context>, images: &[scene::Image]) -> Result<Vec<Image>> {
-    upload_in_chunks(context, images, STAGING_BYTES)
+    let side = context.limits.max_image_dimension_2d;
+    upload_in_chunks(context, images, Most { bytes: STAGING_BYTES, side })
 }
 
-/// [`upload_textures`] with at most `capacity` bytes (or one row of texels) staged at a time.
+/// What bounds an upload.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Most {
+    /// Staged at a time; a row of texels may be more.
+    pub bytes: usize,
+    /// Texels of a side.
+    pub side: u32,
+}
+
+/// [`upload_textures`] within bounds.
 pub(super) fn upload_in_chunks(
     context: &Arc<Context>,
     images: &[scene::Image],
-    capacity: usize,
+    most: Most,
 ) -> Result<Vec<Image>> {
     images.iter().try_for_each(check)?;
-    let targets: Vec<Image> = images.iter().map(|image| make(context, image)).collect::<Result<_>>()?;
-    let chunks = plan(images, capacity);
+    let images: Vec<_> = images.iter().map(|image| Levels::new(image, most.side)).collect();
+    images.iter().for_each(|levels| levels.warn(context));
+    let targets: Vec<Image> = images.iter().map(|levels| make(context, levels)).collect::<Result<_>>()?;
+    let chunks = plan(&images, most.bytes);
     let Some(size) = chunks.iter().map(|chunk| chunk.iter().map(Copy::bytes).sum::<usize>()).max() else {
         return Ok(targets);
     };
@@ -38,7 +51,7 @@ pub(super) fn upload_in_chunks(
         Memory::Upload,
     )?;
     for (index, chunk) in chunks.iter().enumerate() {
-        fill(&staging, images, chunk);
+        fill(&staging, &images, chunk);
         context.submit_and_wait(|cmd| {
             context.begin_label(cmd, c"upload textures");
             if index == 0 {
@@ -58,11 +71,50 @@ pub(super) fn upload_in_chunks(
     Ok(targets)
 }
 
+/// The mip levels of an image that a device takes.
+struct Levels<'a> {
+    image: &'a scene::Image,
+    /// The first of them.
+    first: usize,
+}
+
+impl<'a> Levels<'a> {
+    /// Those with sides of at most `side` texels.
+    fn new(image: &'a scene::Image, side: u32) -> Self {
+        let too_large = |&mip: &usize| {
+            let (width, height) = level_size(image, mip);
+            width.max(height) > side as usize
+        };
+        Self { image, first: (0..image.mips.len() - 1).take_while(too_large).count() }
+    }
+
+    fn texels(&self) -> &[Vec<u8>] {
+        &self.image.mips[self.first..]
+    }
+
+    /// Width and height of a level, texels; level 0 is the first.
+    fn size(&self, level: usize) -> (usize, usize) {
+        level_size(self.image, self.first + level)
+    }
+
+    fn warn(&self, context: &Context) {
+        let scene::Image { name, width, height, .. } = self.image;
+        if self.first > 0 {
+            let (most, (w, h)) = (context.limits.max_image_dimension_2d, self.size(0));
+            let device = &context.info.name;
+            tracing::warn!(
+                "texture {name}: {width}x{height} texels are drawn as {w}x{h}: {device} takes sides of {most}"
+            );
+        }
+    }
+}
+
 /// Some whole rows of one mip level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Copy {
     image: usize,
-    mip: usize,
+    /// Of those uploaded.
+    level: usize,
     /// Width of the level, texels.
     width: usize,
     first_row: usize,
@@ -76,15 +128,15 @@ impl Copy {
 }
 
 /// Splits all levels of all images into chunks of at most `capacity` bytes (or one row, where that is more).
-fn plan(images: &[scene::Image], capacity: usize) -> Vec<Vec<Copy>> {
+fn plan(images: &[Levels], capacity: usize) -> Vec<Vec<Copy>> {
     let mut chunks: Vec<Vec<Copy>> = Vec::new();
     let mut free = 0;
     let levels = images
         .iter()
         .enumerate()
-        .flat_map(|(index, image)| (0..image.mips.len()).map(move |mip| (index, mip)));
-    for (image, mip) in levels {
-        let (width, height) = level_size(&images[image], mip);
+        .flat_map(|(index, image)| (0..image.texels().len()).map(move |level| (index, level)));
+    for (image, level) in levels {
+        let (width, height) = images[image].size(level);
         let row_bytes = width * BYTES_PER_TEXEL;
         let mut first_row = 0;
         while first_row < height {
@@ -93,7 +145,7 @@ fn plan(images: &[scene::Image], capacity: usize) -> Vec<Vec<Copy>> {
                 free = capacity.max(row_bytes);
             }
             let rows = (free / row_bytes).min(height - first_row);
-            let copy = Copy { image, mip, width, first_row, rows };
+            let copy = Copy { image, level, width, first_row, rows };
             chunks.last_mut().expect("a chunk was pushed").push(copy);
             free -= copy.bytes();
             first_row += rows;
@@ -119,23 +171,25 @@ fn check(image: &scene::Image) -> Result<()> {
     }
 }
 
-fn make(context: &Arc<Context>, image: &scene::Image) -> Result<Image> {
+fn make(context: &Arc<Context>, levels: &Levels) -> Result<Image> {
+    let (width, height) = levels.size(0);
     let desc = ImageDesc {
-        width: image.width,
-        height: image.height,
-        mip_levels: image.mips.len() as u32,
-        format: if image.srgb { vk::Format::R8G8B8A8_SRGB } else { vk::Format::R8G8B8A8_UNORM },
+        width: width as u32,
+        height: height as u32,
+        mip_levels: levels.texels().len() as u32,
+        format: if levels.image.srgb { vk::Format::R8G8B8A8_SRGB } else { vk::Format::R8G8B8A8_UNORM },
         usage: vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST,
         ..Default::default()
     };
-    Image::new(context, &format!("texture {}", image.name), desc)
+    Image::new(context, &format!("texture {}", levels.image.name), desc)
 }
 
-fn fill(staging: &Buffer, images: &[scene::Image], chunk: &[Copy]) {
+fn fill(staging: &Buffer, images: &[Levels], chunk: &[Copy]) {
     let mut offset = 0;
     for copy in chunk {
         let start = copy.first_row * copy.width * BYTES_PER_TEXEL;
-        staging.write(offset as u64, &images[copy.image].mips[copy.mip][start..start + copy.bytes()]);
+        let texels = &images[copy.image].texels()[copy.level];
+        staging.write(offset as u64, &texels[start..start + copy.bytes()]);
         offset += copy.bytes();
     }
 }
@@ -146,7 +200,7 @@ fn record(context: &Context, cmd: vk::CommandBuffer, staging: &Buffer, targets: 
         let target = &targets[copy.image];
         let layer = vk::ImageSubresourceLayers::default()
             .aspect_mask(target.aspect)
-            .mip_level(copy.mip as u32)
+            .mip_level(copy.level as u32)
             .layer_count(1);
         let region = vk::BufferImageCopy::default()
             .buffer_offset(offset as u64)
@@ -213,18 +267,32 @@ mod tests {
             capacity in 1usize..2000,
         ) {
             let images: Vec<_> = sizes.iter().map(|&(width, height)| blank(width, height)).collect();
+            let whole: Vec<_> = images.iter().map(|image| Levels::new(image, u32::MAX)).collect();
             let mut copied: Vec<Vec<Vec<u8>>> = images.iter().map(|image| image.mips.clone()).collect();
-            for chunk in plan(&images, capacity) {
+            for chunk in plan(&whole, capacity) {
                 prop_assert!(!chunk.is_empty());
                 let one_row = chunk.len() == 1 && chunk[0].rows == 1;
                 prop_assert!(one_row || chunk.iter().map(Copy::bytes).sum::<usize>() <= capacity);
                 for copy in chunk {
                     let start = copy.first_row * copy.width * BYTES_PER_TEXEL;
-                    let level = &mut copied[copy.image][copy.mip];
+                    let level = &mut copied[copy.image][copy.level];
                     level[start..start + copy.bytes()].iter_mut().for_each(|times| *times += 1);
                 }
             }
             prop_assert!(copied.iter().flatten().flatten().all(|&times| times == 1));
+        }
+    }
+
+    #[test]
+    fn levels_that_the_device_does_not_take_are_left_out() {
+        for (side, first, size) in [(16, 0, (16, 4)), (15, 1, (8, 2)), (8, 1, (8, 2)), (1, 4, (1, 1))] {
+            let image = blank(16, 4);
+            let levels = Levels::new(&image, side);
+            assert_eq!(
+                (levels.first, levels.size(0), levels.texels().len()),
+                (first, size, 5 - first),
+                "{side}"
+            );
         }
     }
 

@@ -5,9 +5,10 @@ use serde_json::{Map, Value};
 use super::left_out::LeftOut;
 
 /// What a file may require.
-const SUPPORTED: [&str; 10] = [
+const SUPPORTED: [&str; 13] = [
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
+    "EXT_texture_webp",
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_pbrSpecularGlossiness",
@@ -15,7 +16,9 @@ const SUPPORTED: [&str; 10] = [
     "KHR_mesh_quantization",
     "KHR_meshopt_compression",
     "KHR_node_visibility",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
+    "MSFT_texture_dds",
 ];
 
 /// Compressed primitives, of which only uncompressed copies are read.

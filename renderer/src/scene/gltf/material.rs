@@ -12,6 +12,7 @@ use serde::Deserialize;
 use super::super::image::{Content, Encoded, make_all};
 use super::super::source::SourceFiles;
 use super::super::{AlphaMode, Image, Material, Sampler, TextureRef, TextureSlot, Wrap};
+use super::choice::Choice;
 use super::document::Document;
 use super::extensions;
 use super::left_out::LeftOut;
@@ -29,8 +30,8 @@ pub(super) struct Materials {
     places: BTreeMap<usize, u32>,
     /// By material.
     pub uv_sets: Vec<UvSets>,
-    /// What [`TextureRef::image`] counts: an image of the document and how it is read.
-    images: Vec<(usize, Content)>,
+    /// What [`TextureRef::image`] counts: images of the document, the first readable of which is meant, and how it is read.
+    images: Vec<(Choice, Content)>,
 }
 
 impl Materials {
@@ -66,16 +67,14 @@ impl Materials {
 
     /// Reads the images that materials use, in the document's order, and decodes them on all cores.
     pub fn load_images(&self, document: &Document, files: &mut SourceFiles) -> Result<Vec<Image>> {
-        let used: BTreeMap<usize, ()> = self.images.iter().map(|&(image, _)| (image, ())).collect();
-        let mut sources = BTreeMap::new();
-        for image in used.into_keys() {
-            sources.insert(image, Source::read(document, files, image)?);
-        }
-        make_all(&self.images, |&(image, content)| {
-            let source = &sources[&image];
-            let encoded = Encoded { name: &source.name, file: &source.file, bytes: &source.bytes };
-            let pixels = encoded.decode()?;
-            Ok(Image::with_mips(&source.name, pixels.size, pixels.texels, content))
+        let used: BTreeSet<usize> = self.images.iter().flat_map(|(choice, _)| choice.images()).collect();
+        let sources: BTreeMap<usize, Result<Source>> =
+            used.into_iter().map(|image| (image, Source::read(document, files, image))).collect();
+        make_all(&self.images, |(choice, content)| {
+            choice.first_readable(&document.path, |image| match &sources[&image] {
+                Ok(source) => source.decode(*content),
+                Err(error) => Err(error.clone()),
+            })
         })
     }
 }
@@ -107,6 +106,12 @@ impl<'a> Source<'a> {
             },
         }
     }
+
+    fn decode(&self, content: Content) -> Result<Image> {
+        let encoded = Encoded { name: &self.name, file: &self.file, bytes: &self.bytes };
+        let pixels = encoded.decode(content)?;
+        Ok(Image::with_mips(&self.name, pixels.size, pixels.texels, content))
+    }
 }
 
 fn used_by(error: Error, document: &Document, index: usize) -> Error {
@@ -137,9 +142,9 @@ impl<'a> Use<'a> {
 
 struct Reader<'a> {
     document: &'a Document,
-    images: Vec<(usize, Content)>,
-    /// By image of the document and kind of content.
-    image_of: BTreeMap<(usize, u8), u32>,
+    images: Vec<(Choice, Content)>,
+    /// By images of the document and kind of content.
+    image_of: BTreeMap<(Choice, u8), u32>,
 }
 
 impl Reader<'_> {
@@ -185,40 +190,43 @@ impl Reader<'_> {
         let sets = uv_sets(&uses)?;
         for texture in &uses {
             let reference = self.texture(texture, &sets, content(&material, texture.slot))?;
-            material.textures[texture.slot as usize] = Some(reference);
+            material.textures[texture.slot as usize] = reference;
         }
         Ok((material, sets))
     }
 
-    fn texture(&mut self, texture: &Use, sets: &UvSets, content: Content) -> Result<TextureRef, String> {
+    fn texture(
+        &mut self,
+        texture: &Use,
+        sets: &UvSets,
+        content: Content,
+    ) -> Result<Option<TextureRef>, String> {
         let json = self.document.get(texture.texture)?;
-        let (index, image) = (texture.texture.value(), json.source);
-        if image.value() == u32::MAX as usize {
-            return Err(format!("uses textures[{index}], which has no PNG or JPEG source"));
-        }
-        self.document.value(image)?;
+        let Some(choice) = Choice::of(self.document, texture.texture.value(), &json)? else {
+            return Ok(None);
+        };
         let sampler = match json.sampler {
             Some(sampler) => read_sampler(&self.document.get(sampler)?),
             None => Sampler { wrap: [Wrap::Repeat; 2], nearest: false },
         };
-        Ok(TextureRef {
-            image: self.image(image.value(), content),
+        Ok(Some(TextureRef {
+            image: self.image(choice, content),
             sampler,
             uv_slot: u32::from(sets[0] != Some(texture.set)),
             uv_transform: texture.transform.as_deref().map_or(TextureRef::IDENTITY, matrix),
-        })
+        }))
     }
 
     /// The place of an image with a content; colour and data are two images.
-    fn image(&mut self, index: usize, content: Content) -> u32 {
+    fn image(&mut self, choice: Choice, content: Content) -> u32 {
         let kind = match content {
             Content::Color { .. } => 0,
             Content::Data => 1,
             Content::Normal => 2,
         };
-        let place = *self.image_of.entry((index, kind)).or_insert(self.images.len() as u32);
+        let place = *self.image_of.entry((choice.clone(), kind)).or_insert(self.images.len() as u32);
         match self.images.get_mut(place as usize) {
-            None => self.images.push((index, content)),
+            None => self.images.push((choice, content)),
             // Opaque materials may share it: they read no alpha.
             Some((_, held)) => *held = (*held).max(content),
         }

@@ -11,6 +11,7 @@
 
 mod accessor;
 mod attributes;
+mod choice;
 mod container;
 mod document;
 mod extensions;

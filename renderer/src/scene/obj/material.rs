@@ -178,16 +178,20 @@ fn roughness(exponent: f32) -> f32 {
 impl Recipe {
     fn make(&self, sources: &BTreeMap<&Path, Vec<u8>>) -> Result<Image> {
         let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let decode = |path: &Path| Encoded { name: &name(path), file: path, bytes: &sources[path] }.decode();
+        let decode = |path: &Path, content| {
+            Encoded { name: &name(path), file: path, bytes: &sources[path] }.decode(content)
+        };
         let (path, pixels, content) = match self {
-            Self::Plain(path, content) => (path, decode(path)?, *content),
-            Self::Masked(path, mask, content) => (path, with_alpha(decode(path)?, &decode(mask)?), *content),
+            Self::Plain(path, content) => (path, decode(path, *content)?, *content),
+            Self::Masked(path, mask, content) => {
+                (path, with_alpha(decode(path, *content)?, &decode(mask, Content::Data)?), *content)
+            }
             Self::Mask(path, content) => {
-                let mask = decode(path)?;
+                let mask = decode(path, Content::Data)?;
                 let texels = vec![255; mask.texels.len()];
                 (path, with_alpha(Pixels { size: mask.size, has_alpha: true, texels }, &mask), *content)
             }
-            Self::Bump(path) => (path, normals(decode(path)?), Content::Normal),
+            Self::Bump(path) => (path, normals(decode(path, Content::Normal)?), Content::Normal),
         };
         Ok(Image::with_mips(name(path), pixels.size, pixels.texels, content))
     }

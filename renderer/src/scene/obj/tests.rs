@@ -3,6 +3,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
+use super::super::image::dds::tests::solid;
 use super::super::image::tests::png;
 use super::super::{AlphaMode, Scene, TextureSlot, load};
 
@@ -88,6 +89,20 @@ fn masks_emission_and_normal_maps() {
     assert_eq!(image(TextureSlot::Emissive).name, "leaf.png");
     assert!(!image(TextureSlot::Normal).srgb);
     assert_eq!(scene.vertices[0].tangent, [1.0, 0.0, 0.0, 1.0]);
+}
+
+#[test]
+fn textures_are_told_by_content_and_masks_by_their_red() {
+    // A DDS under a name that promises a PNG; its alpha is full, so that it masks by its red.
+    let obj = format!("mtllib a.mtl\n{QUAD}usemtl x\nf 1 2 3\n");
+    let files = Files::new(&[
+        ("a.obj", obj.as_bytes()),
+        ("a.mtl", b"newmtl x\nmap_Kd x.png\nmap_d mask.png\n"),
+        ("x.png", &solid([201, 41, 31, 255])),
+        ("mask.png", &solid([77, 41, 31, 255])),
+    ]);
+    let scene = files.load().unwrap();
+    assert_eq!((scene.images[0].srgb, &scene.images[0].mips[0][..4]), (true, &[201, 41, 31, 77][..]));
 }
 
 #[test]

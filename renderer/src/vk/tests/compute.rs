@@ -63,6 +63,16 @@ fn srgb_code(linear: f32) -> f32 {
 }
 
 #[test]
+fn of_a_texture_too_large_for_the_device_smaller_levels_arrive() {
+    silently(|context| {
+        let most = texture::Most { bytes: 64, side: 6 };
+        let textures = texture::upload_in_chunks(context, &[image("large", true, 3)], most).unwrap();
+        let vk::Extent2D { width, height } = textures[0].extent;
+        assert_eq!((width, height, textures[0].mip_levels), (3, 2, 2));
+    });
+}
+
+#[test]
 fn all_mips_of_all_textures_arrive_also_in_many_small_chunks() {
     silently(|context| {
         let images = [image("colour", true, 3), image("data", false, 11)];
@@ -73,7 +83,8 @@ fn all_mips_of_all_textures_arrive_also_in_many_small_chunks() {
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
         let texels = Buffer::new(context, "texels", 42 * 16, usage, Memory::Readback).unwrap();
         for capacity in [buffer::STAGING_BYTES, 64] {
-            let textures = texture::upload_in_chunks(context, &images, capacity).unwrap();
+            let most = texture::Most { bytes: capacity, side: 7 };
+            let textures = texture::upload_in_chunks(context, &images, most).unwrap();
             for (image, texture) in images.iter().zip(&textures) {
                 let bindings = Bindings::new(context, &kinds);
                 let pipeline = compute_pipeline(context, bindings.layout, &words, "sample", &[]).unwrap();

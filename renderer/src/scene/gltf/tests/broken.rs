@@ -108,9 +108,12 @@ fn errors_name_the_object() {
         ),
         ("/textures/0/source", json!(6), "materials[0] refers to images[6]"),
         ("/textures/0/sampler", json!(6), "materials[0] refers to samplers[6]"),
-        ("/textures/0", json!({}), "uses textures[0], which has no PNG or JPEG source"),
         ("/images/0", json!({}), "images[0] has neither a uri nor a bufferView"),
-        ("/images/0", json!({ "bufferView": 0 }), "image images[0]: neither PNG nor JPEG"),
+        (
+            "/images/0",
+            json!({ "bufferView": 0 }),
+            "image images[0]: is none of PNG, JPEG, WebP, TGA, BMP, DDS and KTX2",
+        ),
         ("/nodes", json!("no"), "is not valid glTF: nodes is not an array"),
         ("/nodes/0", json!("no"), "the scene refers to nodes[0], which is not valid: invalid type: string"),
         (

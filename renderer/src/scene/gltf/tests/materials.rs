@@ -2,6 +2,7 @@
 
 use serde_json::json;
 
+use super::super::super::image::dds::tests::solid;
 use super::super::super::image::tests::png;
 use super::super::super::{AlphaMode, Material, Sampler, TextureSlot, Wrap};
 use super::*;
@@ -220,8 +221,61 @@ fn images_from_files_and_data_uris() {
 
     folder.write("tex/ä b.png", b"not a png");
     let error = load(&folder.path().join("scene.glb")).unwrap_err();
-    assert_eq!(message(error, "ä b.png"), "image ä b.png: neither PNG nor JPEG");
+    assert_eq!(
+        message(error, "ä b.png"),
+        "image ä b.png: is none of PNG, JPEG, WebP, TGA, BMP, DDS and KTX2"
+    );
     fs::remove_file(folder.path().join("tex/ä b.png")).unwrap();
     let text = message(load(&folder.path().join("scene.glb")).unwrap_err(), "ä b.png");
     assert!(text.starts_with("cannot be read: ") && text.contains("images[0] of "), "{text}");
+}
+
+/// A triangle whose base colour is `texture`: image 0 is a DDS, 1 a PNG, 2 broken, 3 a file that is missing.
+fn with_choice(texture: Value) -> Asset {
+    let mut asset = textured(2);
+    let (dds, broken) = (asset.view(&solid([201, 41, 31, 255])), asset.view(b"DDS and no more"));
+    asset.json["images"][0] = json!({ "bufferView": dds, "mimeType": "image/png" });
+    push(&mut asset.json["images"], json!({ "bufferView": broken, "name": "broken" }));
+    push(&mut asset.json["images"], json!({ "uri": "missing.dds" }));
+    asset.json["textures"] = json!([texture]);
+    asset.material(json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } }));
+    asset
+}
+
+#[test]
+fn images_in_other_formats_are_preferred_and_plain_ones_stand_in() {
+    let by = |name: &str, image: u32| json!({ name: { "source": image } });
+    let cases = [
+        (json!({ "extensions": by("MSFT_texture_dds", 0) }), 201),
+        (json!({ "source": 1, "extensions": by("MSFT_texture_dds", 0) }), 201),
+        (json!({ "source": 1, "extensions": by("EXT_texture_webp", 0) }), 201),
+        (json!({ "source": 1, "extensions": by("KHR_texture_basisu", 0) }), 201),
+        // Broken, missing, not there: the PNG stands in.
+        (json!({ "source": 1, "extensions": by("MSFT_texture_dds", 2) }), 1),
+        (json!({ "source": 1, "extensions": by("MSFT_texture_dds", 3) }), 1),
+        (json!({ "source": 1, "extensions": by("MSFT_texture_dds", 9) }), 1),
+        (json!({ "source": 1, "extensions": by("EXT_texture_avif", 0) }), 1),
+    ];
+    for (texture, red) in cases {
+        let mut asset = with_choice(texture.clone());
+        asset.json["extensionsRequired"] =
+            json!(["MSFT_texture_dds", "KHR_texture_basisu", "EXT_texture_webp"]);
+        let scene = asset.load().unwrap();
+        assert_eq!((scene.images.len(), scene.images[0].mips[0][0]), (1, red), "{texture}");
+    }
+}
+
+#[test]
+fn where_no_image_can_be_read_the_preferred_one_is_blamed() {
+    let asset = with_choice(json!({ "source": 3, "extensions": { "MSFT_texture_dds": { "source": 2 } } }));
+    let error = asset.error();
+    assert!(error.starts_with("image broken: has a broken DDS header"), "{error}");
+}
+
+#[test]
+fn textures_without_an_image_that_is_read_are_left_out() {
+    for texture in [json!({}), json!({ "extensions": { "EXT_texture_avif": { "source": 0 } } })] {
+        let scene = with_choice(texture).load().unwrap();
+        assert_eq!((scene.images.len(), scene.materials[0].textures), (0, [None; 5]));
+    }
 }
