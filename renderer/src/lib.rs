@@ -40,6 +40,7 @@ pub mod report;
 pub mod scene;
 pub mod still;
 pub mod sweep;
+mod text;
 pub mod views;
 pub mod vk;
 

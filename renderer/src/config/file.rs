@@ -1,7 +1,7 @@
 //! Reading a layer from JSON, with errors that say where: line, column, field, nearest valid name.
 
 use super::{Layer, nearest};
-use crate::{Error, Result};
+use crate::{Error, Result, text};
 use serde_json::Value;
 use serde_json::value::RawValue;
 use serde_path_to_error::{Path as FieldPath, Segment};
@@ -10,8 +10,9 @@ use std::path::Path;
 
 /// Reads the JSON file at `path`.
 pub(super) fn read(path: &Path) -> Result<Layer> {
-    let text = std::fs::read_to_string(path)
+    let bytes = std::fs::read(path)
         .map_err(|error| Error::file(path, format!("the configuration cannot be read: {error}")))?;
+    let text = text::decode(&bytes).map_err(|message| Error::file(path, message))?;
     parse(&text).map_err(|message| Error::file(path, message))
 }
 

@@ -1,7 +1,7 @@
 //! Static lights from a CSV file.
 
 use super::PointLight;
-use crate::{Error, Result};
+use crate::{Error, Result, text};
 use csv::{ReaderBuilder, StringRecord, Trim};
 use std::path::Path;
 
@@ -22,7 +22,8 @@ pub fn load_csv(path: impl AsRef<Path>) -> Result<Vec<PointLight>> {
 }
 
 fn read(bytes: &[u8]) -> Result<Vec<PointLight>, String> {
-    let mut reader = ReaderBuilder::new().trim(Trim::All).from_reader(bytes);
+    let text = text::decode(bytes)?;
+    let mut reader = ReaderBuilder::new().trim(Trim::All).from_reader(text.as_bytes());
     let places = places(reader.headers().map_err(|error| error.to_string())?)?;
     let mut lights = Vec::new();
     let mut record = StringRecord::new();
@@ -59,16 +60,16 @@ fn places(header: &StringRecord) -> Result<[Option<usize>; 10], String> {
 }
 
 fn light(record: &StringRecord, places: &[Option<usize>; 10]) -> Result<PointLight, (&'static str, String)> {
-    let text = |column: usize| places[column].and_then(|place| record.get(place)).unwrap_or("");
+    let field = |column: usize| places[column].and_then(|place| record.get(place)).unwrap_or("");
     let number = |column: usize| {
-        text(column)
+        field(column)
             .parse::<f32>()
-            .map_err(|_| (COLUMNS[column], format!("`{}` is not a number", text(column))))
+            .map_err(|_| (COLUMNS[column], format!("`{}` is not a number", field(column))))
     };
     let position = [number(0)?, number(1)?, number(2)?];
     let tint = [number(3)?, number(4)?, number(5)?];
     let mut light = PointLight::new(position, tint, number(6)?, number(7)?, number(8)?);
-    if !text(9).is_empty() {
+    if !field(9).is_empty() {
         light.r1 = number(9)?;
     }
     light.check()?;

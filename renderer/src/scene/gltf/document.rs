@@ -8,7 +8,7 @@ use gltf::json;
 
 use super::super::source::SourceFiles;
 use super::uri::{self, Target};
-use crate::{Error, Result};
+use crate::{Error, Result, text};
 
 /// Extensions that a file may require.
 const SUPPORTED: [&str; 4] = [
@@ -40,8 +40,8 @@ impl Document {
         } else {
             (&bytes[..], None)
         };
-        let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
-        let root = json::Root::from_slice(json).map_err(|e| fail(format!("is not valid glTF: {e}")))?;
+        let text = text::decode(json).map_err(fail)?;
+        let root = json::Root::from_str(&text).map_err(|e| fail(format!("is not valid glTF: {e}")))?;
         check_version(&root).map_err(fail)?;
         note_ignored(&root, path);
         let mut document = Self { path: path.to_owned(), root, buffers: Vec::new() };
