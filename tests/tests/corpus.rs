@@ -30,7 +30,7 @@ const MTL: &str = "# materials\nnewmtl red\nKa 1 1 1\nKd 0.8 0.1 0.1\nKs 0.5 0.5
     map_d -imfchan m map.png\n";
 
 const CONFIG: &str = "{\n  \"scene\": \"street\",\n  \"recording\": \"bistro\",\n  \"methods\": [\"indi-persp-64\", \"all-lights\"],\n  \
-    \"lights\": [1000, {\"count\": 10, \"intensity\": 5, \"cutoff\": 0.5, \"r0\": 0.1}],\n  \"resolution\": [320, 180],\n  \
+    \"lights\": [{\"count\": 10, \"intensity\": 5, \"cutoff\": 0.5, \"r0\": 0.1}],\n  \"resolution\": [320, 180],\n  \
     \"frames\": \"0..100/40\",\n  \"runs\": 2,\n  \"exr\": [40],\n  \"assign\": [\"brute\", \"scatter\"],\n  \"strict\": true\n}\n";
 
 const WAYPOINTS: &str = "{\n  \"format\": \"manylight.waypoints/1\",\n  \"fov\": 1.2, \"near\": 0.1, \"far\": 100, \"dt_s\": 0.05,\n  \
@@ -55,7 +55,7 @@ const GLTF: &str = r#"{
   "accessors": [
     {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
     {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"},
-    {"bufferView": 0, "byteOffset": 4, "componentType": 5126, "count": 2, "type": "VEC2",
+    {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC2",
      "sparse": {"count": 1, "indices": {"bufferView": 1, "componentType": 5123}, "values": {"bufferView": 0}}}
   ],
   "bufferViews": [
@@ -216,9 +216,11 @@ fn replace_number(bytes: &mut Vec<u8>, dice: &mut Dice) {
         "1,5",
         "1.#IND",
     ];
-    let is_digit = |byte: &u8| byte.is_ascii_digit() || *byte == b'.';
+    fn is_digit(byte: &u8) -> bool {
+        byte.is_ascii_digit() || *byte == b'.'
+    }
     let Some(from) = place(bytes, dice) else { return };
-    let Some(start) = bytes[from..].iter().position(|byte| is_digit(byte)).map(|at| from + at) else {
+    let Some(start) = bytes[from..].iter().position(is_digit).map(|at| from + at) else {
         return;
     };
     let end = bytes[start..].iter().position(|byte| !is_digit(byte)).map_or(bytes.len(), |at| start + at);

@@ -18,7 +18,8 @@ const COLUMNS: [&str; 10] = ["x", "y", "z", "r", "g", "b", "i", "i0", "r0", "r1"
 pub fn load_csv(path: impl AsRef<Path>) -> Result<Vec<PointLight>> {
     let path = path.as_ref();
     let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
-    read(&bytes).map_err(|message| Error::file(path, message))
+    // Names and values in quotes may hold line breaks.
+    read(&bytes).map_err(|message| Error::file(path, message.replace(char::is_control, " ")))
 }
 
 fn read(bytes: &[u8]) -> Result<Vec<PointLight>, String> {
