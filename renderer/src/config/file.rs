@@ -13,7 +13,8 @@ pub(super) fn read(path: &Path) -> Result<Layer> {
     let bytes = std::fs::read(path)
         .map_err(|error| Error::file(path, format!("the configuration cannot be read: {error}")))?;
     let text = text::decode(&bytes).map_err(|message| Error::file(path, message))?;
-    parse(&text).map_err(|message| Error::file(path, message))
+    // Names in it may hold line breaks.
+    parse(&text).map_err(|message| Error::file(path, message.replace(char::is_control, " ")))
 }
 
 /// Reads JSON; an error is `line L, column C: field: what is wrong`.

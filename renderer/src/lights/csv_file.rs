@@ -88,6 +88,15 @@ mod tests {
     }
 
     #[test]
+    fn every_spelling_of_the_text_is_the_same_lights() {
+        let text = format!("{HEADER}1,2,3,1,1,1,100,0.5,0.1,\n4,5,6,1,1,1,8,0.5,0.25,\n");
+        let expected = read(text.as_bytes()).unwrap();
+        for bytes in text::tests::spellings(&text) {
+            assert_eq!(read(&bytes).unwrap(), expected);
+        }
+    }
+
+    #[test]
     fn rows_become_lights() {
         let text = format!("{HEADER}1, 2,-3.5,0.5,1,0,100,0.5,0.1,14\n4,5,6,1,1,1,8,0.5,0.25,\n");
         let lights = read(text.as_bytes()).unwrap();
