@@ -43,6 +43,7 @@ pub mod report;
 pub mod scene;
 pub mod still;
 pub mod sweep;
+mod text;
 pub mod texture_sets;
 pub mod views;
 pub mod vk;

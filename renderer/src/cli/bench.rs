@@ -57,6 +57,10 @@ pub struct Args {
     #[arg(long, value_name = "NAME|PATH", default_value = "street")]
     scene: String,
 
+    /// Refuse odd lines of the scene, as in `replay`.
+    #[arg(long)]
+    strict: bool,
+
     /// Recording, as in `replay`.
     #[arg(long, value_name = "NAME|PATH", default_value = "bistro")]
     recording: String,
@@ -154,6 +158,7 @@ impl Args {
         let methods = self.methods.iter().map(|name| name.parse()).collect::<Result<Vec<_>>>()?;
         let layer = Layer {
             scene: Some(self.scene.clone()),
+            strict: Some(self.strict),
             recording: Some(self.recording.clone()),
             methods: Some(methods),
             resolution: Some(crate::config::parse_resolution(&self.resolution).map_err(input)?),

@@ -1,8 +1,7 @@
 //! Reading a layer from JSON, with errors that say where: line, column, field, nearest valid name.
 
 use super::Layer;
-use crate::nearest;
-use crate::{Error, Result};
+use crate::{Error, Result, nearest, text};
 use serde_json::Value;
 use serde_json::value::RawValue;
 use serde_path_to_error::{Path as FieldPath, Segment};
@@ -11,9 +10,11 @@ use std::path::Path;
 
 /// Reads the JSON file at `path`.
 pub(super) fn read(path: &Path) -> Result<Layer> {
-    let text = std::fs::read_to_string(path)
+    let bytes = std::fs::read(path)
         .map_err(|error| Error::file(path, format!("the configuration cannot be read: {error}")))?;
-    parse(&text).map_err(|message| Error::file(path, message))
+    let text = text::decode(&bytes).map_err(|message| Error::file(path, message))?;
+    // Names in it may hold line breaks.
+    parse(&text).map_err(|message| Error::file(path, message.replace(char::is_control, " ")))
 }
 
 /// Reads JSON; an error is `line L, column C: field: what is wrong`.

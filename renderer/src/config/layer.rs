@@ -31,6 +31,10 @@ pub struct Layer {
     #[schemars(length(min = 1))]
     pub scene: Option<String>,
 
+    /// Refuse an OBJ scene, or an MTL file of its, for the first line that would else be a warning.
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
+    pub strict: Option<bool>,
+
     /// Recording: `bistro`, `suntem`, `bistro-vive`, `bistro-mirror`, `suntem-vive`, or the path of a JSON file.
     #[arg(long, value_name = "NAME|PATH")]
     #[serde(default, deserialize_with = "de::text")]
@@ -189,6 +193,7 @@ impl Config {
         self.apply_scenes(&layer)?;
         set(&mut self.exclude, layer.exclude);
         set(&mut self.scene, layer.scene);
+        set(&mut self.strict, layer.strict);
         set(&mut self.recording, layer.recording);
         set(&mut self.methods, layer.methods);
         set(&mut self.resolution, layer.resolution);

@@ -162,6 +162,8 @@ pub struct SceneEntry {
 pub struct Config {
     /// Built-in name or path of a scene.
     pub scene: String,
+    /// Odd lines of OBJ and MTL files are errors instead of warnings.
+    pub strict: bool,
     /// Bundled name or path of a recording.
     pub recording: String,
     /// Several scenes, each with its recording, instead of `scene` and `recording`; empty for that one.
@@ -229,6 +231,7 @@ impl Default for Config {
     fn default() -> Self {
         Self {
             scene: "street".into(),
+            strict: false,
             recording: "bistro-vive".into(),
             scenes: Vec::new(),
             exclude: Vec::new(),

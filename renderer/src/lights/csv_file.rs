@@ -1,7 +1,7 @@
 //! Static lights from a CSV file.
 
 use super::PointLight;
-use crate::{Error, Result};
+use crate::{Error, Result, text};
 use csv::{ReaderBuilder, StringRecord, Trim};
 use sha2::{Digest, Sha256};
 use std::path::Path;
@@ -29,13 +29,16 @@ pub struct LightsFile {
 pub fn load_csv(path: impl AsRef<Path>) -> Result<LightsFile> {
     let path = path.as_ref();
     let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
-    let lights = read(&bytes).map_err(|message| Error::file(path, message))?;
+    // Names and values in quotes may hold line breaks.
+    let fail = |message: String| Error::file(path, message.replace(char::is_control, " "));
+    let lights = read(&bytes).map_err(fail)?;
     let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
     Ok(LightsFile { lights, sha256 })
 }
 
 fn read(bytes: &[u8]) -> Result<Vec<PointLight>, String> {
-    let mut reader = ReaderBuilder::new().trim(Trim::All).from_reader(bytes);
+    let text = text::decode(bytes)?;
+    let mut reader = ReaderBuilder::new().trim(Trim::All).from_reader(text.as_bytes());
     let places = places(reader.headers().map_err(|error| error.to_string())?)?;
     let mut lights = Vec::new();
     let mut record = StringRecord::new();
@@ -72,16 +75,16 @@ fn places(header: &StringRecord) -> Result<[Option<usize>; 10], String> {
 }
 
 fn light(record: &StringRecord, places: &[Option<usize>; 10]) -> Result<PointLight, (&'static str, String)> {
-    let text = |column: usize| places[column].and_then(|place| record.get(place)).unwrap_or("");
+    let field = |column: usize| places[column].and_then(|place| record.get(place)).unwrap_or("");
     let number = |column: usize| {
-        text(column)
+        field(column)
             .parse::<f32>()
-            .map_err(|_| (COLUMNS[column], format!("`{}` is not a number", text(column))))
+            .map_err(|_| (COLUMNS[column], format!("`{}` is not a number", field(column))))
     };
     let position = [number(0)?, number(1)?, number(2)?];
     let tint = [number(3)?, number(4)?, number(5)?];
     let mut light = PointLight::new(position, tint, number(6)?, number(7)?, number(8)?);
-    if !text(9).is_empty() {
+    if !field(9).is_empty() {
         light = light.ending_at(number(9)?);
     }
     light.check()?;
@@ -98,6 +101,15 @@ mod tests {
 
     fn refusal(row: &str) -> String {
         read(format!("{HEADER}1,2,3,1,1,1,100,0.5,0.1,\n{row}\n").as_bytes()).unwrap_err()
+    }
+
+    #[test]
+    fn every_spelling_of_the_text_is_the_same_lights() {
+        let text = format!("{HEADER}1,2,3,1,1,1,100,0.5,0.1,\n4,5,6,1,1,1,8,0.5,0.25,\n");
+        let expected = read(text.as_bytes()).unwrap();
+        for bytes in text::tests::spellings(&text) {
+            assert_eq!(read(&bytes).unwrap(), expected);
+        }
     }
 
     #[test]

@@ -23,7 +23,7 @@ mod spline;
 
 use super::format::{MAX_COORDINATE, check_clock_and_depths, check_fov, check_position};
 use super::json::{self, Check, Problem};
-use super::{Format, Frame, Hmd, Recording, RecordingFile, Source, file_name, read, sha256, stem, utf8};
+use super::{Format, Frame, Hmd, Recording, RecordingFile, Source, file_name, read, sha256, stem};
 use crate::rain::RainParameters;
 use crate::{Error, Result};
 use glam::DVec3;
@@ -166,7 +166,7 @@ fn look_along(direction: DVec3, last_yaw: f64) -> Option<[f64; 2]> {
 pub fn bake(path: impl AsRef<Path>) -> Result<Recording> {
     let path = path.as_ref();
     let bytes = read(path)?;
-    let waypoints: WaypointFile = json::parse(path, utf8(path, &bytes)?)?;
+    let waypoints: WaypointFile = json::parse(path, &bytes)?;
     let frames = waypoints.frames().map_err(|error| Error::file(path, error))?;
     let file = RecordingFile {
         format: Format::V1,

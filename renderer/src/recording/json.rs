@@ -1,6 +1,6 @@
 //! Reading JSON so that every complaint names file, line, column and field.
 
-use crate::{Error, Result};
+use crate::{Error, Result, text};
 use serde::de::{DeserializeOwned, DeserializeSeed, Error as _, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use std::fmt;
 use std::path::Path;
@@ -81,19 +81,20 @@ pub(crate) trait Check {
     fn check(&self) -> Result<(), Problem>;
 }
 
-/// Reads a checked value from the JSON `text` of the file `path`.
+/// Reads a checked value from the JSON text of the file `path`.
 ///
 /// # Errors
-/// [`Error::File`] with line, column and field where the text is no JSON, does not have the fields of `T`, or
-/// fails its [`Check`].
-pub(super) fn parse<T: DeserializeOwned + Check>(path: &Path, text: &str) -> Result<T> {
-    let mut deserializer = serde_json::Deserializer::from_str(text);
+/// [`Error::File`] with line, column and field where the bytes are no text, the text is no JSON, does not have the
+/// fields of `T`, or fails its [`Check`].
+pub(super) fn parse<T: DeserializeOwned + Check>(path: &Path, bytes: &[u8]) -> Result<T> {
+    let text = text::decode(bytes).map_err(|message| Error::file(path, message))?;
+    let mut deserializer = serde_json::Deserializer::from_str(&text);
     let value: T = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
         let field = Some(error.path().to_string()).filter(|field| field != ".");
         Error::file(path, describe(error.inner(), field.as_deref()))
     })?;
     deserializer.end().map_err(|error| Error::file(path, describe(&error, None)))?;
-    value.check().map_err(|problem| Error::file(path, problem.located(text)))?;
+    value.check().map_err(|problem| Error::file(path, problem.located(&text)))?;
     Ok(value)
 }
 
@@ -175,7 +176,7 @@ mod tests {
     }
 
     fn message(text: &str) -> String {
-        parse::<Probe>(Path::new("p.json"), text).unwrap_err().to_string()
+        parse::<Probe>(Path::new("p.json"), text.as_bytes()).unwrap_err().to_string()
     }
 
     #[test]

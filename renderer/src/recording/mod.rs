@@ -113,13 +113,8 @@ fn read(path: &Path) -> Result<Vec<u8>> {
 }
 
 fn parse(name: &str, path: &Path, bytes: &[u8]) -> Result<Recording> {
-    let file = json::parse::<RecordingFile>(path, utf8(path, bytes)?)?;
+    let file = json::parse::<RecordingFile>(path, bytes)?;
     Ok(Recording { name: name.to_owned(), file, sha256: sha256(bytes) })
-}
-
-fn utf8<'b>(path: &Path, bytes: &'b [u8]) -> Result<&'b str> {
-    std::str::from_utf8(bytes)
-        .map_err(|error| Error::file(path, format!("is not UTF-8 text, at byte {}", error.valid_up_to())))
 }
 
 fn unknown_name(name: &str) -> Error {

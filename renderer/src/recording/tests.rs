@@ -197,6 +197,17 @@ fn every_broken_rule_is_named_with_line_and_field() {
 }
 
 #[test]
+fn every_spelling_of_the_text_is_the_same_recording() {
+    let expected = parse("small", Path::new("small.json"), SMALL.as_bytes()).unwrap();
+    for bytes in crate::text::tests::spellings(SMALL) {
+        assert_eq!(parse("small", Path::new("small.json"), &bytes).unwrap().file(), expected.file());
+    }
+    let cut = SMALL.split_once("\"frames\"").unwrap().0.replace('\n', "\r") + "\"frames\": []}";
+    let message = parse("small", Path::new("small.json"), cut.as_bytes()).unwrap_err().to_string();
+    assert!(message.contains("line 9, column 11: "), "lines that end with CR count: {message}");
+}
+
+#[test]
 fn near_unit_quaternions_play_as_unit_ones() {
     let recording = small("0, 0.6, 0, 0.8, 1.5", "0, 0.6000001, 0, 0.8, 1.5").unwrap();
     assert!((recording.views(0, [4, 4]).unwrap()[0].pose.rotation.length() - 1.0).abs() < 1e-15);

@@ -35,7 +35,7 @@ impl Inputs {
     /// As [`Self::load`].
     pub fn load_with(config: &Config, recording: Recording, scene: Option<Scene>) -> Result<Self> {
         let static_file = config.lights_file.as_deref().map(lights::load_csv).transpose()?;
-        let scene = scene.map_or_else(|| load_scene(&config.scene), Ok)?;
+        let scene = scene.map_or_else(|| load_scene(&config.scene, config.strict), Ok)?;
         let (static_lights, lights_sha256) = match static_file {
             Some(LightsFile { lights, sha256 }) => (Some(lights), Some(sha256)),
             None if config.scene_lights => (Some(scene_lights(&scene)?), None),
@@ -92,10 +92,14 @@ impl Inputs {
     }
 }
 
-/// A built-in scene by its name, or a scene file.
-pub fn load_scene(name_or_path: &str) -> Result<Scene> {
+/// A built-in scene by its name, or a scene file, of which `strict` refuses odd lines.
+///
+/// # Errors
+/// As [`scene::load`].
+pub fn load_scene(name_or_path: &str, strict: bool) -> Result<Scene> {
     match procedural::by_name(name_or_path) {
         Some(scene) => Ok(scene),
+        None if strict => scene::load_strictly(Path::new(name_or_path)),
         None => scene::load(Path::new(name_or_path)),
     }
 }

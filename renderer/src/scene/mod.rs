@@ -222,15 +222,28 @@ pub struct Scene {
     pub warnings: Vec<String>,
 }
 
-/// Reads a scene file: glTF 2.0 (.gltf, .glb) or Wavefront OBJ (.obj), told apart by extension.
+/// Reads a scene file: glTF 2.0 (.gltf, .glb) or Wavefront OBJ (.obj), told apart by extension. Odd lines of OBJ and
+/// MTL are warnings.
 ///
 /// # Errors
 /// One line that names the file and what is wrong with it: unreadable, corrupt, not supported, empty.
 pub fn load(path: &Path) -> Result<Scene> {
+    read(path, false)
+}
+
+/// The same, but the first odd line of an OBJ or MTL file is an error.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_strictly(path: &Path) -> Result<Scene> {
+    read(path, true)
+}
+
+fn read(path: &Path, strict: bool) -> Result<Scene> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     let scene = match extension.as_str() {
         "gltf" | "glb" => gltf::load(path),
-        "obj" => obj::load(path),
+        "obj" => obj::load(path, strict),
         _ => Err(Error::file(path, "is not a scene: give a .gltf, .glb or .obj file")),
     }?;
     for warning in &scene.warnings {

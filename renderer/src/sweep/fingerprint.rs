@@ -14,7 +14,7 @@ pub struct Fingerprint {
 
 /// Fields of the configuration that choose what the rest of the fingerprint holds by content, or that results do not
 /// depend on.
-const LEFT_OUT: [&str; 4] = ["out", "device", "shaders", "lights_file"];
+const LEFT_OUT: [&str; 5] = ["out", "device", "shaders", "lights_file", "strict"];
 
 impl Fingerprint {
     /// Takes the content of scene, recording, static lights and shaders, the program, and the device.
@@ -64,7 +64,10 @@ mod tests {
         let base = Config::default();
         let same = of("a", &base);
         assert_eq!(
-            of("a", &Config { out: "elsewhere".into(), device: Some("0".into()), ..base.clone() }),
+            of(
+                "a",
+                &Config { out: "elsewhere".into(), device: Some("0".into()), strict: true, ..base.clone() }
+            ),
             same
         );
         assert_ne!(of("b", &base), same);

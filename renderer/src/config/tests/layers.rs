@@ -22,6 +22,16 @@ fn layers_replace_what_they_give_and_leave_the_rest() {
 }
 
 #[test]
+fn every_spelling_of_the_text_is_the_same_configuration() {
+    let path = tempfile::NamedTempFile::new().unwrap().into_temp_path();
+    for bytes in crate::text::tests::spellings("{\n\"runs\": 7,\n\"strict\": true\n}\n") {
+        std::fs::write(&path, bytes).unwrap();
+        let config = Config::resolve(Some(&path), Layer::default()).unwrap();
+        assert_eq!((config.runs, config.strict), (7, true));
+    }
+}
+
+#[test]
 fn sources_of_light_replace_each_other_as_one() {
     let sources = |layers: &[&str]| resolved(layers).unwrap().lights_from();
     let rain = vec![LightsFrom::Rain(Lighting::with_count(7))];

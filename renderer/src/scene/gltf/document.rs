@@ -16,7 +16,7 @@ use super::container;
 use super::extensions;
 use super::meshopt::{self, Compressed};
 use super::uri::{self, Target};
-use crate::{Error, Result};
+use crate::{Error, Result, text};
 
 /// A parsed file with the bytes of its buffers.
 pub(super) struct Document {
@@ -186,10 +186,9 @@ pub(super) fn slice(bytes: &[u8], offset: u64, length: u64) -> Option<&[u8]> {
 }
 
 fn parse(json: &[u8]) -> Result<Map<String, Value>, String> {
-    let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
-    // Some writers pad the JSON of a GLB file with zeros.
-    let end = json.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
-    match serde_json::from_slice(&json[..end]).map_err(|e| format!("is neither GLB nor valid JSON: {e}"))? {
+    // Some writers pad the JSON of a GLB file with zeros, which decoding leaves out.
+    let text = text::decode(json).map_err(|e| format!("is neither GLB nor text: {e}"))?;
+    match serde_json::from_str(&text).map_err(|e| format!("is neither GLB nor valid JSON: {e}"))? {
         Value::Object(root) => Ok(root),
         _ => Err("is not glTF: its JSON is not an object".into()),
     }

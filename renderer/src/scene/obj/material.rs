@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use super::super::image::{Content, Encoded, Pixels, make_all};
 use super::super::source::SourceFiles;
 use super::super::{AlphaMode, Image, Material, TextureRef, TextureSlot};
-use super::mtl::{Library, TextureLine};
+use super::mtl::Definition;
+use super::texture_line::TextureLine;
 use crate::{Error, Result};
 
 /// How an image is made from files.
@@ -22,9 +23,9 @@ enum Recipe {
     Bump(PathBuf),
 }
 
-/// The materials of the libraries.
+/// The materials that faces use.
+#[derive(Default)]
 pub(super) struct Materials {
-    /// As in the libraries; maybe a default one at the end.
     pub list: Vec<Material>,
     recipes: Vec<Recipe>,
     /// By file: who asks for it.
@@ -32,25 +33,11 @@ pub(super) struct Materials {
 }
 
 impl Materials {
-    /// Converts what tobj parsed from `library`; images are only noted.
-    pub fn new(library: &Library, parsed: &[tobj::Material]) -> Self {
-        let mut this = Self { list: Vec::new(), recipes: Vec::new(), users: BTreeMap::new() };
-        for (mtl, file) in parsed.iter().zip(&library.files) {
-            let material = this.convert(mtl, file);
-            this.list.push(material);
-        }
-        this
-    }
-
-    /// Appends the material of faces without one.
-    pub fn add_default(&mut self) {
-        let plain = Material::plain("default");
-        self.list.push(Material {
-            metallic: 0.0,
-            base_color: [0.8, 0.8, 0.8, 1.0],
-            double_sided: true,
-            ..plain
-        });
+    /// Adds a defined material, or the default one, and tells its place; images are only noted.
+    pub fn add(&mut self, definition: Option<&Definition>) -> u32 {
+        let material = definition.map_or_else(default, |definition| self.convert(definition));
+        self.list.push(material);
+        (self.list.len() - 1) as u32
     }
 
     /// Reads each file once, in order of name, and makes the images on all cores.
@@ -66,25 +53,18 @@ impl Materials {
         make_all(&self.recipes, |recipe| recipe.make(&sources))
     }
 
-    fn convert(&mut self, mtl: &tobj::Material, file: &Path) -> Material {
-        let other = |key: &str| mtl.unknown_param.get(key);
-        let scalar = |key: &str| other(key).and_then(|value| value.parse::<f32>().ok());
-        let line = |text: Option<&String>| text.map(|text| TextureLine::parse(text));
-        let color = line(mtl.diffuse_texture.as_ref());
-        let mask = line(mtl.dissolve_texture.as_ref());
-        let glow = line(other("map_Ke"));
-        let bump = line(other("norm").or(mtl.normal_texture.as_ref()));
-
-        let dissolve = mtl.dissolve.or(scalar("Tr").map(|transparency| 1.0 - transparency)).unwrap_or(1.0);
+    fn convert(&mut self, mtl: &Definition) -> Material {
+        let (color, mask) = (mtl.color_map.as_ref(), mtl.mask_map.as_ref());
+        let (glow, bump) = (mtl.emissive_map.as_ref(), mtl.normal_map.as_ref().or(mtl.bump_map.as_ref()));
         let [r, g, b] = mtl.diffuse.unwrap_or(if color.is_some() { [1.0; 3] } else { [0.8; 3] });
         let unlit = if glow.is_some() { [1.0; 3] } else { [0.0; 3] };
         let mut material = Material {
-            base_color: [r, g, b, dissolve.clamp(0.0, 1.0)],
-            metallic: scalar("Pm").unwrap_or(0.0).clamp(0.0, 1.0),
-            roughness: scalar("Pr").unwrap_or_else(|| mtl.shininess.map_or(1.0, roughness)).clamp(0.0, 1.0),
+            base_color: [r, g, b, mtl.alpha],
+            metallic: mtl.metallic.unwrap_or(0.0).clamp(0.0, 1.0),
+            roughness: mtl.roughness.unwrap_or_else(|| mtl.exponent.map_or(1.0, roughness)).clamp(0.0, 1.0),
             emissive: mtl.emissive.unwrap_or(unlit),
-            normal_scale: bump.as_ref().map_or(1.0, |bump| bump.bump),
-            alpha_mode: match (&mask, dissolve < 1.0) {
+            normal_scale: bump.map_or(1.0, |bump| bump.bump),
+            alpha_mode: match (mask, mtl.alpha < 1.0) {
                 (_, true) => AlphaMode::Blend,
                 (Some(_), false) => AlphaMode::Mask,
                 (None, false) => AlphaMode::Opaque,
@@ -92,21 +72,17 @@ impl Materials {
             double_sided: true,
             ..Material::plain(&mtl.name)
         };
-        let mut asking = Asking { materials: self, mtl: file, name: &mtl.name };
+        let mut asking = Asking { materials: self, mtl: &mtl.file, name: &mtl.name };
         let base = Content::Color { cutoff: material.texture_cutoff() };
+        let glowing = |path| Recipe::Plain(path, Content::Color { cutoff: None });
+        let bumpy = |path| match mtl.normal_map {
+            Some(_) => Recipe::Plain(path, Content::Normal),
+            None => Recipe::Bump(path),
+        };
         let textures = [
-            (TextureSlot::BaseColor, asking.base_color(color.as_ref(), mask.as_ref(), base)),
-            (
-                TextureSlot::Emissive,
-                asking.texture(glow.as_ref(), |p| Recipe::Plain(p, Content::Color { cutoff: None })),
-            ),
-            (
-                TextureSlot::Normal,
-                asking.texture(bump.as_ref(), |path| match other("norm") {
-                    Some(_) => Recipe::Plain(path, Content::Normal),
-                    None => Recipe::Bump(path),
-                }),
-            ),
+            (TextureSlot::BaseColor, asking.base_color(color, mask, base)),
+            (TextureSlot::Emissive, asking.texture(glow, glowing)),
+            (TextureSlot::Normal, asking.texture(bump, bumpy)),
         ];
         for (slot, texture) in textures {
             material.textures[slot as usize] = texture;
@@ -122,6 +98,12 @@ impl Materials {
             self.recipes.len() - 1
         }) as u32
     }
+}
+
+/// What faces without a material have.
+fn default() -> Material {
+    let plain = Material::plain("default");
+    Material { metallic: 0.0, base_color: [0.8, 0.8, 0.8, 1.0], double_sided: true, ..plain }
 }
 
 /// A material of an MTL file asking for textures.

@@ -1,115 +1,119 @@
 //! Wavefront OBJ with MTL.
 //!
-//! Parsed by `tobj` from text that `text` and `mtl` have checked line by line, because tobj's errors give
-//! no line and some input makes it panic or misplace coordinates. Polygons become fans. OBJ says nothing of
-//! back faces, so all are drawn; colours are taken as linear, images as sRGB.
+//! Text becomes statements (`lines`), statements become faces (`parse`) and definitions of materials (`mtl`), polygons
+//! become triangles (`polygon`), groups become meshes (`build`). No line that exporters write refuses a file: each kind
+//! of oddity is told once (`oddities`), unless it is to be refused.
+//!
+//! OBJ says nothing of back faces, so all are drawn; which side is the front is told by the given normals and, without
+//! them, by the winding. Colours of vertices and images are sRGB, those of MTL linear.
 
+mod build;
+mod lines;
 mod material;
 mod mtl;
+mod oddities;
+mod parse;
+mod polygon;
 #[cfg(test)]
 mod tests;
-mod text;
+mod texture_line;
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use glam::DMat4;
 use rayon::prelude::*;
 
+use self::build::Built;
 use self::material::Materials;
 use self::mtl::Library;
-use super::mesh::{Mesh, PLAIN_VERTEX};
+use self::oddities::{Kind, Oddities, shown};
+use self::parse::Geometry;
 use super::source::SourceFiles;
-use super::{Instance, Scene, TextureSlot, Vertex, file_stem};
-use crate::{Error, Result};
+use super::{Instance, Scene, TextureSlot, file_stem};
+use crate::{Error, Result, text};
 
-/// Reads an .obj file, its material libraries and their images. A missing library is a warning, a missing
-/// image an error.
+/// Reads an .obj file, its material libraries and the images of the materials that faces use. `strict` refuses the first
+/// line that would else be a warning; a missing image is an error either way.
 ///
 /// # Errors
 /// One line that names the file, the line and what is wrong with it.
-pub fn load(path: &Path) -> Result<Scene> {
+pub fn load(path: &Path, strict: bool) -> Result<Scene> {
+    let mut oddities = Oddities::new(path, strict);
     let mut files = SourceFiles::default();
-    let source = text::clean(&files.read(path)?).map_err(|e| Error::file(path, e))?;
-    let library = Library::read(path, &source.libraries, &mut files)?;
-    let (mut models, parsed) = parse(path, &source.text, &library)?;
-    drop(source.text);
-    models.retain(|model| !model.mesh.indices.is_empty());
-    warn_of_missing(path, &source.materials, &parsed);
+    let geometry = read(path, &mut files, &mut oddities)?;
+    let library = Library::read(path, &geometry.libraries, &mut files, &mut oddities)?;
+    let definitions = library.find(&geometry.materials);
+    note_missing(&geometry, &definitions, &mut oddities)?;
 
-    let mut materials = Materials::new(&library, &parsed);
+    let (materials, material_of_group) = materials(&geometry, &library, &definitions);
     let mut scene = Scene::empty(file_stem(path));
     scene.images = materials.load_images(&mut files)?;
-    if models.iter().any(|model| model.mesh.material_id.is_none()) {
-        materials.add_default();
+    let built = build_all(&geometry, &materials, &material_of_group);
+    note_odd_polygons(path, &built, &mut oddities)?;
+    oddities.warn();
+    library.warn();
+    for Built { mesh, .. } in built.into_iter().filter(|built| !built.mesh.indices.is_empty()) {
+        let primitive = scene.primitives.len() as u32;
+        scene.add_mesh(mesh).map_err(|message| Error::file(path, message))?;
+        scene.instances.push(Instance { primitive, world_from_object: DMat4::IDENTITY });
     }
-    add_models(&mut scene, path, models, &materials)?;
     scene.materials = materials.list;
     scene.sha256 = files.sha256();
     Ok(scene)
 }
 
-fn parse(path: &Path, text: &str, library: &Library) -> Result<(Vec<tobj::Model>, Vec<tobj::Material>)> {
-    let load_library = |_: &Path| tobj::load_mtl_buf(&mut library.text.as_bytes());
-    tobj::load_obj_buf(&mut text.as_bytes(), &tobj::GPU_LOAD_OPTIONS, load_library)
-        .and_then(|(models, materials)| Ok((models, materials?)))
-        .map_err(|e| Error::file(path, format!("cannot be read: {e}")))
-}
-
-fn warn_of_missing(path: &Path, used: &BTreeSet<String>, materials: &[tobj::Material]) {
-    let missing: Vec<_> =
-        used.iter().filter(|name| materials.iter().all(|m| m.name != **name)).cloned().collect();
-    if !missing.is_empty() {
-        tracing::warn!("{}: no MTL defines {}; a default stands in", path.display(), missing.join(", "));
+fn read(path: &Path, files: &mut SourceFiles, oddities: &mut Oddities) -> Result<Geometry> {
+    let bytes = files.read(path)?;
+    let (text, odd_line) = text::decode_any(&bytes).map_err(|message| Error::file(path, message))?;
+    if let Some(line) = odd_line {
+        oddities.note(line, Kind::Encoding, "the text is not UTF-8")?;
     }
+    parse::parse(&text, oddities)
 }
 
-fn add_models(scene: &mut Scene, path: &Path, models: Vec<tobj::Model>, materials: &Materials) -> Result<()> {
-    let meshes: Vec<_> = models.into_par_iter().map(|model| build(model, materials)).collect();
-    for mesh in meshes {
-        if let Some(vertex) = mesh.first_bad_position() {
-            let position = mesh.vertices[vertex].position;
-            return Err(Error::file(path, format!("has a position that is not finite: {position:?}")));
+/// Notes names after `usemtl` that mean no definition.
+fn note_missing(geometry: &Geometry, definitions: &[Option<usize>], oddities: &mut Oddities) -> Result<()> {
+    for ((name, line), _) in geometry.materials.iter().zip(definitions).filter(|(_, found)| found.is_none()) {
+        if name.is_empty() {
+            oddities.note(*line, Kind::EmptyName, "usemtl without a name")?;
+        } else {
+            let name = shown(name);
+            oddities.note_named(*line, Kind::NoMaterial, &name, format_args!("no MTL defines {name}"))?;
         }
-        let primitive = scene.primitives.len() as u32;
-        scene.add_mesh(mesh).map_err(|message| Error::file(path, message))?;
-        scene.instances.push(Instance { primitive, world_from_object: DMat4::IDENTITY });
     }
     Ok(())
 }
 
-fn build(model: tobj::Model, materials: &Materials) -> Mesh {
-    let tobj::Model { mesh, .. } = model;
-    let material = mesh.material_id.unwrap_or(materials.list.len() - 1);
-    let normal_map = materials.list[material].textures[TextureSlot::Normal as usize];
-    let has_normals = !mesh.normals.is_empty();
-    let mut built = Mesh { vertices: vertices(&mesh), indices: mesh.indices, material: material as u32 };
-    if has_normals {
-        built.normalize_normals();
-    } else {
-        built.flatten_normals();
-    }
-    match normal_map {
-        Some(normal_map) if built.first_bad_position().is_none() => built.generate_tangents(&normal_map),
-        _ => built.set_any_tangents(),
-    }
-    built
+/// The materials that groups use, in the order of their first use, and which of them each group has.
+fn materials(geometry: &Geometry, library: &Library, definitions: &[Option<usize>]) -> (Materials, Vec<u32>) {
+    let mut materials = Materials::default();
+    let mut place = BTreeMap::new();
+    let material_of_group = geometry.groups.iter().map(|group| {
+        let definition = group.material.and_then(|material| definitions[material]);
+        *place
+            .entry(definition)
+            .or_insert_with(|| materials.add(definition.map(|definition| &library.definitions[definition])))
+    });
+    let material_of_group = material_of_group.collect();
+    (materials, material_of_group)
 }
 
-/// Vertices with what the model has of normals, coordinates (turned to have v down the image) and colours.
-fn vertices(mesh: &tobj::Mesh) -> Vec<Vertex> {
-    let positions = mesh.positions.as_chunks::<3>().0.iter();
-    let mut vertices: Vec<_> = positions.map(|&position| Vertex { position, ..PLAIN_VERTEX }).collect();
-    for (vertex, &normal) in vertices.iter_mut().zip(mesh.normals.as_chunks::<3>().0) {
-        vertex.normal = normal;
+/// Builds the mesh of each group, on all cores.
+fn build_all(geometry: &Geometry, materials: &Materials, material_of_group: &[u32]) -> Vec<Built> {
+    let groups = geometry.groups.par_iter().zip(material_of_group);
+    let normal_map =
+        |material: u32| materials.list[material as usize].textures[TextureSlot::Normal as usize].as_ref();
+    groups.map(|(group, &material)| build::build(geometry, group, material, normal_map(material))).collect()
+}
+
+fn note_odd_polygons(path: &Path, built: &[Built], oddities: &mut Oddities) -> Result<()> {
+    for &(line, kind, what) in built.iter().flat_map(|built| &built.odd) {
+        oddities.note(line, kind, what)?;
     }
-    for (vertex, &[u, v]) in vertices.iter_mut().zip(mesh.texcoords.as_chunks::<2>().0) {
-        let uv = [u, 1.0 - v].map(|x| if x.is_finite() { x } else { 0.0 });
-        vertex.uv = [uv, [0.0; 2]];
+    let turned: usize = built.iter().map(|built| built.turned).sum();
+    if turned > 0 {
+        tracing::info!("{}: {turned} triangles wind against their normals and were turned", path.display());
     }
-    for (vertex, &[r, g, b]) in vertices.iter_mut().zip(mesh.vertex_color.as_chunks::<3>().0) {
-        let [r, g, b] = [r, g, b].map(|x| (x.clamp(0.0, 1.0) * 255.0).round() as u8);
-        vertex.color = [r, g, b, 255];
-    }
-    vertices
+    Ok(())
 }

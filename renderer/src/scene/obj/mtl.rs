@@ -1,220 +1,356 @@
-//! MTL text made safe, and the options of its texture lines.
+//! MTL text as what it says of each material.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::super::source::SourceFiles;
-use super::super::{Sampler, TextureRef, Wrap};
-use crate::{Error, Result};
+use super::lines::{self, Statement, name_without_comment, number, portable, unquoted, without_comment};
+use super::oddities::{Kind, Oddities, count, shown};
+use super::texture_line::TextureLine;
+use crate::{Error, Result, text};
 
-/// The material libraries of an OBJ file as one checked text.
+/// What an MTL file says of a material, as it says it.
+#[derive(Debug, Default)]
+pub(super) struct Definition {
+    pub name: String,
+    /// The MTL file.
+    pub file: PathBuf,
+    /// Where it begins, from 1.
+    line: usize,
+    /// `Kd`, linear.
+    pub diffuse: Option<[f32; 3]>,
+    /// `Ke`, linear.
+    pub emissive: Option<[f32; 3]>,
+    /// `Ns`.
+    pub exponent: Option<f32>,
+    /// `Pr`.
+    pub roughness: Option<f32>,
+    /// `Pm`.
+    pub metallic: Option<f32>,
+    /// `d`.
+    dissolve: Option<f32>,
+    /// `Tr` and its line.
+    transparency: Option<(f32, usize)>,
+    /// 1 opaque to 0 invisible, from `d` and `Tr`.
+    pub alpha: f32,
+    /// `map_Kd`.
+    pub color_map: Option<TextureLine>,
+    /// `map_d`.
+    pub mask_map: Option<TextureLine>,
+    /// `map_Ke`.
+    pub emissive_map: Option<TextureLine>,
+    /// `norm`.
+    pub normal_map: Option<TextureLine>,
+    /// `map_Bump`, `bump`.
+    pub bump_map: Option<TextureLine>,
+}
+
+/// Statements that the materials here have no use for: Phong's ambient and specular terms, refraction.
+const UNUSED: &[&str] = &[
+    "aniso",
+    "anisor",
+    "illum",
+    "ka",
+    "ks",
+    "map_aat",
+    "map_ka",
+    "map_ks",
+    "map_ns",
+    "ni",
+    "pc",
+    "pcr",
+    "ps",
+    "sharpness",
+    "tf",
+];
+
+/// Maps that would change the picture and are not drawn.
+const NOT_DRAWN: &[&str] =
+    &["decal", "disp", "map_decal", "map_disp", "map_pm", "map_pr", "map_ps", "map_refl", "map_tr", "refl"];
+
+/// The materials of all libraries of an OBJ file.
 #[derive(Debug, Default)]
 pub(super) struct Library {
-    /// For tobj.
-    pub text: String,
-    /// By material in `text`: the file that defines it.
-    pub files: Vec<PathBuf>,
+    pub definitions: Vec<Definition>,
+    oddities: Vec<Oddities>,
 }
 
 impl Library {
-    /// Reads the libraries that lie beside `obj`; one that is missing is a warning.
-    pub fn read(obj: &Path, names: &[String], files: &mut SourceFiles) -> Result<Self> {
+    /// Reads the libraries that an OBJ file names and that lie beside it.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is no text; the first oddity, where they are refused.
+    pub fn read(
+        obj: &Path,
+        names: &[(String, usize)],
+        files: &mut SourceFiles,
+        oddities: &mut Oddities,
+    ) -> Result<Self> {
         let mut library = Self::default();
         let folder = obj.parent().unwrap_or(Path::new(""));
-        for name in names {
-            // A line may name several files, and a name may hold spaces.
-            let whole = folder.join(portable(name));
-            let paths: Vec<_> = match whole.is_file() {
-                true => vec![whole],
-                false => name.split_whitespace().map(|name| folder.join(portable(name))).collect(),
-            };
-            for path in paths {
-                if path.is_file() {
-                    library.add(&path, &files.read(&path)?)?;
+        for (name, line) in names {
+            let exists = |name: &str| folder.join(portable(name)).is_file();
+            for name in split_names(name, &exists) {
+                let path = folder.join(portable(name));
+                if exists(name) {
+                    library.add(&path, files, oddities)?;
                 } else {
-                    tracing::warn!("{}: is missing; its materials become a default one", path.display());
+                    let what = format_args!("the library {} is missing", shown(name));
+                    oddities.note_named(*line, Kind::NoLibrary, name, what)?;
                 }
             }
         }
         Ok(library)
     }
 
-    fn add(&mut self, path: &Path, bytes: &[u8]) -> Result<()> {
-        let mut named = false;
-        for (i, line) in String::from_utf8_lossy(bytes).lines().enumerate() {
-            let fail = |message: String| Error::file(path, format!("line {}: {message}", i + 1));
-            let Some(line) = clean_line(line.trim()).map_err(fail)? else { continue };
-            let is_name = line.starts_with("newmtl ");
-            named |= is_name;
-            if is_name {
-                self.files.push(path.to_owned());
+    /// One warning a kind for each library.
+    pub fn warn(&self) {
+        self.oddities.iter().for_each(Oddities::warn);
+    }
+
+    /// What the warnings say.
+    #[cfg(test)]
+    pub fn messages(&self) -> Vec<String> {
+        self.oddities.iter().flat_map(Oddities::messages).collect()
+    }
+
+    fn add(&mut self, path: &Path, files: &mut SourceFiles, obj: &Oddities) -> Result<()> {
+        let mut oddities = obj.of_same_rigour(path);
+        let bytes = files.read(path)?;
+        let (text, odd_line) = text::decode_any(&bytes).map_err(|message| Error::file(path, message))?;
+        if let Some(line) = odd_line {
+            oddities.note(line, Kind::Encoding, "the text is not UTF-8")?;
+        }
+        let mut reader = Reader { file: path, definitions: Vec::new(), oddities: &mut oddities };
+        for statement in lines::statements(&text) {
+            reader.statement(&statement)?;
+        }
+        reader.finish()?;
+        self.definitions.append(&mut reader.definitions);
+        self.oddities.push(oddities);
+        Ok(())
+    }
+
+    /// The definition that each of the names after `usemtl` means: the last of that name, else of that name without a
+    /// comment behind it. `None` where there is none.
+    pub fn find(&self, names: &[(String, usize)]) -> Vec<Option<usize>> {
+        let mut exact = BTreeMap::new();
+        let mut bare = BTreeMap::new();
+        for (i, definition) in self.definitions.iter().enumerate() {
+            exact.insert(definition.name.as_str(), i);
+            bare.insert(without_note(&definition.name), i);
+        }
+        let find = |name: &str| {
+            let name_alone = without_note(name);
+            exact.get(name).or_else(|| exact.get(name_alone)).or_else(|| bare.get(name_alone)).copied()
+        };
+        names.iter().map(|(name, _)| find(name)).collect()
+    }
+}
+
+fn without_note(name: &str) -> &str {
+    unquoted(name_without_comment(name))
+}
+
+/// The files that `mtllib` names: one with spaces, or several, each maybe with spaces or in quotes.
+fn split_names<'a>(rest: &'a str, exists: &dyn Fn(&str) -> bool) -> Vec<&'a str> {
+    /// Longer names are not put together from words.
+    const MOST_WORDS: usize = 16;
+    let rest = if exists(unquoted(rest)) { rest } else { name_without_comment(rest) };
+    if exists(unquoted(rest)) {
+        return vec![unquoted(rest)];
+    }
+    let mut names = Vec::new();
+    let mut left = rest.trim();
+    while !left.is_empty() {
+        let quoted = left.strip_prefix('"').and_then(|inner| inner.split_once('"'));
+        if let Some((name, after)) = quoted {
+            names.push(name);
+            left = after.trim_start();
+            continue;
+        }
+        let ends = left.match_indices(char::is_whitespace).map(|(end, _)| end).chain([left.len()]);
+        let ends: Vec<_> = ends.take(MOST_WORDS).collect();
+        let end = ends.iter().rev().find(|end| exists(left[..**end].trim_end())).unwrap_or(&ends[0]);
+        names.push(left[..*end].trim_end());
+        left = left[*end..].trim_start();
+    }
+    names
+}
+
+struct Reader<'a> {
+    file: &'a Path,
+    definitions: Vec<Definition>,
+    oddities: &'a mut Oddities,
+}
+
+impl Reader<'_> {
+    fn statement(&mut self, statement: &Statement) -> Result<()> {
+        let line = statement.line;
+        let (keyword, rest) = statement.split();
+        let lower = keyword.to_lowercase();
+        if lower == "newmtl" {
+            return self.begin(line, unquoted(rest));
+        }
+        if self.definitions.is_empty() {
+            let what = format_args!("{} before the first newmtl", shown(keyword));
+            return self.oddities.note(line, Kind::NoOwner, what);
+        }
+        match lower.as_str() {
+            "kd" | "ke" => self.color(line, keyword, rest),
+            "ns" | "pr" | "pm" | "d" | "tr" => self.scalar(line, keyword, rest),
+            "map_kd" | "map_ke" | "map_d" | "map_bump" | "bump" | "norm" => self.texture(line, keyword, rest),
+            "#mrgb" => Ok(()),
+            other if UNUSED.contains(&other) => Ok(()),
+            other if NOT_DRAWN.contains(&other) => self.oddities.note_named(
+                line,
+                Kind::NotDrawn,
+                other,
+                format_args!("`{keyword}` is not drawn"),
+            ),
+            _ => {
+                let keyword = shown(keyword);
+                let what = format_args!("unknown keyword {keyword}");
+                self.oddities.note_named(line, Kind::UnknownKeyword, &keyword, what)
             }
-            // What comes before the first name belongs to no material, least of all to one of another file.
-            if named {
-                self.text.extend([line.as_str(), "\n"]);
-            }
+        }
+    }
+
+    fn begin(&mut self, line: usize, name: &str) -> Result<()> {
+        if name.is_empty() {
+            self.oddities.note(line, Kind::EmptyName, "newmtl without a name")?;
+        }
+        let (name, file) = (name.to_owned(), self.file.to_owned());
+        self.definitions.push(Definition { name, file, line, ..Definition::default() });
+        Ok(())
+    }
+
+    /// The material that statements are of.
+    fn current(&mut self) -> &mut Definition {
+        let last = self.definitions.len() - 1;
+        &mut self.definitions[last]
+    }
+
+    fn scalar(&mut self, line: usize, keyword: &str, rest: &str) -> Result<()> {
+        // "-halo" makes alpha depend on the view; only the factor is used.
+        let rest = without_comment(rest).trim_start_matches("-halo");
+        let mut words = rest.split_whitespace();
+        let word = words.next().unwrap_or_default();
+        let Some(value) = number(word) else {
+            let what = format_args!("{keyword} has {}, which is not a finite number", shown(word));
+            return self.oddities.note(line, Kind::Value, what);
+        };
+        self.stray(line, keyword, 1 + words.count(), 1)?;
+        let material = self.current();
+        match keyword.to_lowercase().as_str() {
+            "ns" => material.exponent = Some(value),
+            "pr" => material.roughness = Some(value),
+            "pm" => material.metallic = Some(value),
+            "tr" => material.transparency = Some((value, line)),
+            _ => material.dissolve = Some(value),
         }
         Ok(())
     }
-}
 
-/// A line of MTL with its numbers checked and its keyword as tobj spells it; `None` if nothing here reads it.
-fn clean_line(line: &str) -> Result<Option<String>, String> {
-    let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
-    let rest = rest.trim();
-    let lower = keyword.to_lowercase();
-    let cleaned = match lower.as_str() {
-        "newmtl" if rest.is_empty() => return Err("newmtl without a name".into()),
-        "newmtl" => format!("newmtl {rest}"),
-        "kd" | "ke" => {
-            let [r, g, b] = color(keyword, rest)?;
-            format!("K{} {r} {g} {b}", &lower[1..])
-        }
-        "ns" => format!("Ns {}", number(keyword, rest)?),
-        // "-halo" makes alpha depend on the view; only the factor is used.
-        "d" => format!("d {}", number(keyword, rest.trim_start_matches("-halo"))?),
-        "tr" => format!("Tr {}", number(keyword, rest)?),
-        "pr" => format!("Pr {}", number(keyword, rest)?),
-        "pm" => format!("Pm {}", number(keyword, rest)?),
-        "map_kd" | "map_ke" | "map_d" | "map_bump" | "bump" | "norm" if rest.is_empty() => {
-            return Err(format!("{keyword} without a file"));
-        }
-        "map_kd" => format!("map_Kd {rest}"),
-        "map_ke" => format!("map_Ke {rest}"),
-        "map_d" => format!("map_d {rest}"),
-        "map_bump" | "bump" => format!("map_Bump {rest}"),
-        "norm" => format!("norm {rest}"),
-        _ => return Ok(None),
-    };
-    Ok(Some(cleaned))
-}
-
-fn number(keyword: &str, rest: &str) -> Result<f32, String> {
-    let word = rest.split_whitespace().next().unwrap_or_default();
-    let number: Option<f32> = word.parse().ok().filter(|number: &f32| number.is_finite());
-    number.ok_or_else(|| format!("{keyword} has \"{word}\", which is not a finite number"))
-}
-
-/// One number stands for all three; spectra and CIE XYZ are refused.
-fn color(keyword: &str, rest: &str) -> Result<[f32; 3], String> {
-    let mut words = rest.split_whitespace().take_while(|word| !word.starts_with('#'));
-    let mut next = || words.next().map(|word| number(keyword, word)).transpose();
-    match (next()?, next()?, next()?) {
-        (Some(r), Some(g), Some(b)) => Ok([r, g, b]),
-        (Some(grey), None, None) => Ok([grey; 3]),
-        _ => Err(format!("{keyword} has \"{rest}\" instead of three numbers")),
-    }
-}
-
-/// A texture line without its keyword: `[-option value...]... file`.
-#[derive(Debug, PartialEq)]
-pub(super) struct TextureLine {
-    /// As written, with forward slashes.
-    pub file: PathBuf,
-    /// `-bm`.
-    pub bump: f32,
-    sampler: Sampler,
-    uv_transform: [[f32; 3]; 2],
-}
-
-impl TextureLine {
-    /// Reads `-bm`, `-clamp`, `-o` and `-s`; skips the values of the other options.
-    pub fn parse(line: &str) -> Self {
-        let mut rest = line.trim();
-        let (mut bump, mut wrap) = (1.0, Wrap::Repeat);
-        let (mut scale, mut offset) = ([1.0, 1.0], [0.0, 0.0]);
-        while let Some((option, after)) =
-            rest.strip_prefix('-').and_then(|r| r.split_once(char::is_whitespace))
-        {
-            let Some(limit) = value_count(option) else { break };
-            let (values, after) = take_values(after, limit, matches!(option, "o" | "s" | "t" | "mm"));
-            let number =
-                |i: usize| values.get(i).and_then(|v| v.parse().ok()).filter(|v: &f32| v.is_finite());
-            match option {
-                "bm" => bump = number(0).unwrap_or(bump),
-                "clamp" if values.first() == Some(&"on") => wrap = Wrap::Clamp,
-                "s" => scale = [number(0).unwrap_or(1.0), number(1).unwrap_or(1.0)],
-                "o" => offset = [number(0).unwrap_or(0.0), number(1).unwrap_or(0.0)],
-                _ => {}
+    /// One number stands for all three; spectra and CIE XYZ are not read.
+    fn color(&mut self, line: usize, keyword: &str, rest: &str) -> Result<()> {
+        let words: Vec<_> = without_comment(rest).split_whitespace().take(4).collect();
+        let values: Option<Vec<f32>> = words.iter().take(3).map(|word| number(word)).collect();
+        let color = match values.as_deref() {
+            Some(&[grey]) => [grey; 3],
+            Some(&[r, g, b]) => [r, g, b],
+            _ => {
+                let what = format_args!("{keyword} has {} instead of three numbers", shown(rest));
+                return self.oddities.note(line, Kind::Value, what);
             }
-            rest = after;
+        };
+        self.stray(line, keyword, words.len(), 3)?;
+        if color.iter().any(|x| *x < 0.0) {
+            let what = format_args!("{keyword} has {}, which is below 0", shown(rest));
+            return self.oddities.note(line, Kind::Value, what);
         }
-        // The options count v up the image, textures count it down: v' = 1 - (scale * (1 - v) + offset).
-        let v_offset = 1.0 - scale[1] - offset[1];
-        Self {
-            file: portable(rest).into(),
-            bump,
-            sampler: Sampler { wrap: [wrap; 2], nearest: false },
-            uv_transform: [[scale[0], 0.0, offset[0]], [0.0, scale[1], v_offset]],
+        let material = self.current();
+        match keyword.to_lowercase().as_str() {
+            "kd" => material.diffuse = Some(color),
+            _ => material.emissive = Some(color),
         }
+        Ok(())
     }
 
-    /// The texture, given the place of its image in the scene.
-    pub fn reference(&self, image: u32) -> TextureRef {
-        TextureRef { image, sampler: self.sampler, uv_slot: 0, uv_transform: self.uv_transform }
-    }
-}
-
-/// At most how many values an option takes.
-fn value_count(option: &str) -> Option<usize> {
-    match option {
-        "o" | "s" | "t" => Some(3),
-        "mm" => Some(2),
-        "blendu" | "blendv" | "bm" | "boost" | "cc" | "clamp" | "imfchan" | "texres" | "type" => Some(1),
-        _ => None,
-    }
-}
-
-/// The next words, up to `limit` of them and, where they are to be, only `numeric` ones.
-fn take_values(mut rest: &str, limit: usize, numeric: bool) -> (Vec<&str>, &str) {
-    let mut values = Vec::new();
-    rest = rest.trim_start();
-    while values.len() < limit {
-        let Some((word, after)) = rest.split_once(char::is_whitespace) else { break };
-        if numeric && word.parse::<f32>().is_err() {
-            break;
+    fn stray(&mut self, line: usize, keyword: &str, words: usize, most: usize) -> Result<()> {
+        if words <= most {
+            return Ok(());
         }
-        values.push(word);
-        rest = after.trim_start();
-    }
-    (values, rest)
-}
-
-/// File names written on Windows.
-fn portable(name: &str) -> String {
-    name.replace('\\', "/")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lines_are_checked_and_spelt_as_tobj_reads_them() {
-        let cases = [
-            ("KD 0.5", Some("Kd 0.5 0.5 0.5")),
-            ("Ke 1 2 3 # bright", Some("Ke 1 2 3")),
-            ("d -halo 0.25", Some("d 0.25")),
-            ("Bump a b.png", Some("map_Bump a b.png")),
-            ("illum 99999", None),
-            ("Ks nonsense", None),
-            ("", None),
-        ];
-        for (line, expected) in cases {
-            assert_eq!(clean_line(line), Ok(expected.map(String::from)), "{line}");
-        }
-        for bad in ["Kd 1 2", "Kd spectral a.rfl", "Kd", "Ns x", "d nan", "newmtl", "map_Kd"] {
-            assert!(clean_line(bad).is_err(), "{bad}");
-        }
+        let what = format_args!("{keyword} has more than {}", count(most, "number"));
+        self.oddities.note(line, Kind::Stray, what)
     }
 
-    #[test]
-    fn texture_options_come_before_the_file() {
-        let line = TextureLine::parse(r"-bm 0.5 -s 2 4 -o 0.25 0.5 0 -clamp on dir\my file.png");
-        assert_eq!((line.file.to_str(), line.bump), (Some("dir/my file.png"), 0.5));
-        assert_eq!(line.sampler.wrap, [Wrap::Clamp; 2]);
-        assert_eq!(line.uv_transform, [[2.0, 0.0, 0.25], [0.0, 4.0, -3.5]]);
-        let plain = TextureLine::parse("-texres 512 -unknown.png");
-        assert_eq!(plain.file.to_str(), Some("-unknown.png"));
-        assert_eq!(plain.uv_transform, TextureRef::IDENTITY);
+    fn texture(&mut self, line: usize, keyword: &str, rest: &str) -> Result<()> {
+        let folder = self.file.parent().unwrap_or(Path::new(""));
+        let exists = |name: &str| folder.join(portable(name)).is_file();
+        let (texture, ignored) = TextureLine::parse(rest, &exists);
+        if let Some(ignored) = ignored {
+            self.oddities.note(line, Kind::TextureOption, format_args!("{keyword} has the {ignored}"))?;
+        }
+        let Some(mut texture) = texture else {
+            return self.oddities.note(line, Kind::EmptyMap, format_args!("{keyword} without a file"));
+        };
+        let beside = texture.file.file_name().map(PathBuf::from).unwrap_or_default();
+        let is_file = |path: &Path| folder.join(path).is_file();
+        if !is_file(&texture.file) && is_file(&beside) {
+            let what = format_args!("{} is not there", shown(&texture.file.to_string_lossy()));
+            self.oddities.note(line, Kind::Moved, what)?;
+            texture.file = beside;
+        }
+        let material = self.current();
+        let slot = match keyword.to_lowercase().as_str() {
+            "map_kd" => &mut material.color_map,
+            "map_ke" => &mut material.emissive_map,
+            "map_d" => &mut material.mask_map,
+            "norm" => &mut material.normal_map,
+            _ => &mut material.bump_map,
+        };
+        *slot = Some(texture);
+        Ok(())
+    }
+
+    /// Settles what `d` and `Tr` mean, and notes names that are defined again.
+    fn finish(&mut self) -> Result<()> {
+        let mut lines = BTreeMap::new();
+        for i in 0..self.definitions.len() {
+            let Definition { name, line, .. } = &self.definitions[i];
+            if let Some(before) = lines.insert(name.clone(), *line) {
+                let what = format_args!("{} is defined in line {before} too", shown(name));
+                self.oddities.note(*line, Kind::Twice, what)?;
+            }
+            self.definitions[i].alpha = self.alpha(i)?;
+        }
+        Ok(())
+    }
+
+    /// `d` decides where there is one. `Tr` alone is 1 - d to most programs, but to others d itself; since nobody means
+    /// a material that is never seen, a `Tr` of 1 is opaque.
+    fn alpha(&mut self, i: usize) -> Result<f32> {
+        let Definition { dissolve, transparency, line, .. } = self.definitions[i];
+        let name = shown(&self.definitions[i].name);
+        match (dissolve, transparency) {
+            (Some(d), Some((tr, line))) if d >= 1.0 && tr >= 1.0 => {
+                let what = format_args!("material {name} has d {d} and Tr {tr}");
+                self.oddities.note(line, Kind::Transparency, what)?;
+            }
+            (None, Some((tr, line))) if tr >= 1.0 => {
+                let what =
+                    format_args!("material {name} has Tr {tr} alone, which makes it invisible or opaque");
+                self.oddities.note(line, Kind::Transparency, what)?;
+                return Ok(1.0);
+            }
+            _ => {}
+        }
+        let alpha = dissolve.or(transparency.map(|(tr, _)| 1.0 - tr)).unwrap_or(1.0).clamp(0.0, 1.0);
+        if alpha == 0.0 {
+            let what = format_args!("material {name} is wholly transparent");
+            self.oddities.note(line, Kind::Invisible, what)?;
+        }
+        Ok(alpha)
     }
 }
