@@ -21,17 +21,6 @@ bool shade_light(LightData light, Surface surface, inout vec3 radiance)
     return true;
 }
 
-// A fragment was shaded by `lights` lights.
-void count_fragment(uint lights, uint evaluated, uint needed)
-{
-    count(COUNTER_FRAGMENTS_SHADED, 1u);
-    count(COUNTER_LIGHTING_COMPUTATIONS, evaluated);
-    count(COUNTER_NEEDED_COMPUTATIONS, needed);
-#if COUNTERS
-    atomicAdd(lights_per_fragment[lights], 1u);
-#endif
-}
-
 vec3 shade_lights(Surface surface, LightCursor cursor)
 {
     vec3 radiance = vec3(0.0);
@@ -44,6 +33,11 @@ vec3 shade_lights(Surface surface, LightCursor cursor)
             }
         }
     }
-    count_fragment(cursor.end - cursor.next, evaluated, needed);
+    count(COUNTER_FRAGMENTS_SHADED, 1u);
+    count(COUNTER_LIGHTING_COMPUTATIONS, evaluated);
+    count(COUNTER_NEEDED_COMPUTATIONS, needed);
+#if COUNTERS
+    atomicAdd(lights_per_fragment[cursor.end - cursor.next], 1u);
+#endif
     return radiance;
 }
