@@ -157,8 +157,10 @@ pub struct SceneEntry {
     pub frames: Option<FrameRange>,
 }
 
-/// One fully resolved run configuration. Serialized, it is a configuration file again.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// One fully resolved run configuration. Serialized, it is a configuration file again; read back, what is left out has
+/// its default.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Layer")]
 pub struct Config {
     /// Built-in name or path of a scene.
     pub scene: String,

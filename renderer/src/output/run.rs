@@ -2,8 +2,9 @@
 
 use super::atomic::{StagedDirectory, write_whole};
 use super::image_exr::write_exr;
-use super::manifest::Manifest;
+use super::manifest::{MANIFEST, Manifest};
 use super::preview::{write_png, write_previews};
+use super::rows::Row;
 use super::stages::StageMinima;
 use super::summary::Summary;
 use super::tables;
@@ -16,9 +17,6 @@ use image::RgbImage;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
-
-/// By this file a run directory is known.
-pub(super) const MANIFEST: &str = "run.json";
 
 /// One run: a method under one lighting, by one way of assignment with one test.
 #[derive(Debug, Clone, PartialEq)]
@@ -148,14 +146,18 @@ impl RunWriter {
     /// A file cannot be written; nothing is left of the new directory then.
     pub fn finish(self, manifest: &Manifest, counts: &[FrameCounts], times: &[FrameTimes]) -> Result<()> {
         let minima = StageMinima::from_times(times);
-        self.write("frames.csv", |file| tables::write_frames(file, counts, &minima))?;
-        self.write("timings.csv", |file| tables::write_timings(file, times))?;
-        self.write("clusterings.csv", |file| tables::write_clusterings(file, counts))?;
-        self.write("histograms.csv", |file| tables::write_histograms(file, counts))?;
+        self.write_table(tables::frames(counts, &minima))?;
+        self.write_table(tables::timings(times))?;
+        self.write_table(tables::clusterings(counts))?;
+        self.write_table(tables::histograms(counts))?;
         let manifest = serde_json::to_string_pretty(manifest)
             .map_err(|error| Error::Internal(format!("the manifest is not JSON: {error}")))?;
         self.write(MANIFEST, |file| writeln!(file, "{manifest}"))?;
         self.staged.commit()
+    }
+
+    fn write_table<R: Row>(&self, rows: impl Iterator<Item = R>) -> Result<()> {
+        self.write(R::FILE, |file| tables::write(file, rows))
     }
 
     fn write(&self, name: &str, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<()> {

@@ -10,9 +10,9 @@ use half::f16;
 /// A manifest of a run of one frame.
 pub(super) fn manifest() -> Manifest {
     Manifest {
-        format: RUN_FORMAT,
-        version: env!("CARGO_PKG_VERSION"),
-        git_revision: git_revision(),
+        format: RUN_FORMAT.into(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        git_revision: git_revision().into(),
         fingerprint: "0f".into(),
         method: "encl-ortho-4".into(),
         lighting: Some(Lighting::with_count(1000)),
@@ -21,7 +21,7 @@ pub(super) fn manifest() -> Manifest {
         scene: Source { name: "street".into(), sha256: "00".into() },
         recording: Source { name: "bistro-vive".into(), sha256: "11".into() },
         lights_file: None,
-        frame_count: 1,
+        frame_count: Some(1),
         device: DeviceInfo { name: "llvmpipe".into(), driver: "Mesa".into(), api: "1.3.230".into() },
         capacities: Capacities { visible_clusters: 1, light_indices: 2 },
         growth: vec![GrowthEvent {

@@ -17,6 +17,7 @@ use crate::gpu_interface::{ClusteringState, Counter};
 use crate::lights::PointLight;
 use crate::measure::Capacities;
 use crate::methods::MethodSpec;
+use crate::output::makes_lists;
 use crate::passes::readback;
 use crate::replay::counted::Counted;
 use serde::Serialize;
@@ -74,9 +75,6 @@ pub struct BenchRow {
 
 /// The slot that benchmarked frames use: each is read before the next begins.
 const SLOT: usize = 0;
-/// Stages whose times make a row's.
-const STAGES: [&str; 6] =
-    ["transform_lights", "cull_lights", "build_hierarchy", "count_lights", "light_offsets", "assign_lights"];
 
 /// Times `bench` by the config's methods, scene, recording and resolution; rows come as soon as they are measured.
 ///
@@ -195,7 +193,6 @@ impl Case<'_> {
     fn time(&self, session: &mut Session, engine: &mut Engine) -> Result<f64> {
         self.render(session, engine)?;
         let times: Vec<f64> = session.slots[SLOT].timestamps.read()?.map(|(gpu_ms, _)| gpu_ms).collect();
-        let of_assignment = |path: &str| path.rsplit('/').next().is_some_and(|stage| STAGES.contains(&stage));
-        Ok(engine.tree.paths().zip(times).filter(|(path, _)| of_assignment(path)).map(|(_, ms)| ms).sum())
+        Ok(engine.tree.paths().zip(times).filter(|(path, _)| makes_lists(path)).map(|(_, ms)| ms).sum())
     }
 }

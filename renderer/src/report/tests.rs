@@ -50,6 +50,15 @@ fn figures_are_drawn_from_what_there_is() {
 }
 
 #[test]
+fn words_have_one_space_between() {
+    for runs in [everything(), vec![]] {
+        for figure in figures::all(&set(runs)).unwrap() {
+            assert!(!figure.caption.contains("  ") && !figure.title.contains("  "), "{}", figure.caption);
+        }
+    }
+}
+
+#[test]
 fn scenes_go_to_their_chapter() {
     let mut runs = everything();
     for run in &mut runs {

@@ -172,7 +172,10 @@ impl<'a> Scene<'a> {
 const CLUSTERS: Wanted<'static> = Wanted {
     id: "",
     title: "Grids of clusters",
-    caption: "Clusters in three colours, by the sum of their indices modulo 3: as the camera sees them (of several views               side by side), and from above, where the bird's eye only looks and clusters nothing. Grey surfaces lie in no               visible cluster. Green lines are the frusta of the views, red ones those of the clusterings, or their boxes.",
+    caption: "Clusters in three colours, by the sum of their indices modulo 3: as the camera sees them (of several views \
+              side by side), and from above, where the bird's eye only looks and clusters nothing. Grey surfaces lie in \
+              no visible cluster. Green lines are the frusta of the views, red ones those of the clusterings, or their \
+              boxes.",
     missing: "needs rendered frames of Persp 64, Ortho 4 or Displ 64 32: replay with --exr and frame numbers",
 };
 
@@ -194,16 +197,17 @@ const TUNED: Wanted<'static> = Wanted {
 const FRAME: Wanted<'static> = Wanted {
     id: "",
     title: "Frame breakdown",
-    caption: "GPU time of the frame (ms). Miscellaneous is what is neither clustering nor shading: lights and the \
-              resolve. Panels of one lighting have one scale.",
+    caption: "GPU time of the frame (ms). Miscellaneous is what is neither clustering nor shading: lights, culling \
+              and the resolve. Panels of one lighting have one scale.",
     missing: "",
 };
 
 const CLUSTERING: Wanted<'static> = Wanted {
     id: "",
     title: "Clustering breakdown",
-    caption: "GPU time of clustering (ms). Visibility is the depth pass and the marking of visible clusters; \
-              miscellaneous is compaction, transforming lights and prefix sums. Panels of one lighting have one scale.",
+    caption: "GPU time of clustering (ms). Visibility is the depth pass and the marking of visible clusters; count is with \
+              transforming or culling lights and building the hierarchy; miscellaneous is compaction and prefix sums. \
+              Panels of one lighting have one scale.",
     missing: "",
 };
 
