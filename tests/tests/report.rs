@@ -181,7 +181,7 @@ fn the_page_opens_offline_draws_every_figure_and_tells_values() {
     let claims: serde_json::Value =
         serde_json::from_str(&fs::read_to_string(directory.join("claims.json")).unwrap()).unwrap();
     assert_eq!(claims.as_array().unwrap().len(), 8);
-    assert_eq!(claims[0]["verdict"], "holds");
+    assert_eq!((&claims[0]["id"], &claims[0]["verdict"]), (&"G1".into(), &"holds".into()));
 
     let seen = self_test(&directory.join("index.html"));
     assert_eq!(seen["problems"], serde_json::json!([]));

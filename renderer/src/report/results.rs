@@ -199,20 +199,6 @@ impl Setting {
     pub fn is_stereo(&self) -> bool {
         self.views > 1
     }
-
-    /// Which part of the thesis the scene belongs to.
-    pub fn is_sun_temple(&self) -> bool {
-        let belongs = |name: &str| {
-            let name = name.to_ascii_lowercase();
-            name.contains("temple") || name.contains("suntem")
-        };
-        belongs(&self.scene) || belongs(&self.recording)
-    }
-
-    /// Whether the camera flies the thesis's path through the street, which looks at far geometry around frame 580.
-    pub fn flies_the_street(&self) -> bool {
-        self.recording.to_ascii_lowercase().contains("bistro")
-    }
 }
 
 impl std::fmt::Display for Setting {
