@@ -1,7 +1,7 @@
 //! Reading result sets: which runs there are, and the tables of one run.
 
 use crate::Result;
-use crate::config::{Config, Lighting};
+use crate::config::{Axis, Config, Lighting, Role};
 use crate::output::{self, Age, FrameRow, Manifest, Row, Source, each_row, saved_frames};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ pub(super) struct RunEntry {
     pub identity: Identity,
     /// How lists were built, and what decided who is on them: beside the others, these tell the runs of a sweep apart.
     /// Where they need not, runs are joined across them: so two ways or tests are compared.
-    pub way: [String; 2],
+    pub way: Vec<String>,
     /// The file of static lights as it was spelled, and its SHA-256, which earlier versions left out.
     pub lights_file: Option<(String, Option<String>)>,
     /// Of runs that were asked to do the same, the greatest is the newest.
@@ -37,7 +37,7 @@ fn read_entry(directory: &Path) -> Result<RunEntry> {
     let sha256 = run.lights_file.as_ref().map(|input| input.sha256.clone());
     Ok(RunEntry {
         identity: identity(&run),
-        way: way(&run.config),
+        way: Axis::of_role(Role::Way).map(|axis| axis.label(&run.config, &run.config)).collect(),
         lights_file: run.config.lights_file.as_ref().map(|path| (path.display().to_string(), sha256)),
         age: output::age(directory, &run.started),
         label: label(&run),
@@ -62,13 +62,6 @@ impl RunEntry {
         self.identity.extend(self.way.clone());
         self.label = format!("{}, {}", self.label, self.way.join(", "));
     }
-}
-
-fn way(config: &Config) -> [String; 2] {
-    fn names<T: ToString>(values: &[T]) -> String {
-        values.iter().map(ToString::to_string).collect::<Vec<_>>().join(",")
-    }
-    [names(&config.assign), names(&config.test)]
 }
 
 /// What decides what a run counts; the rest of its configuration says where results go, or how often and on what they are

@@ -9,7 +9,7 @@ use super::stages::StageMinima;
 use super::summary::Summary;
 use super::tables;
 use super::trace;
-use crate::config::{Assign, Case, Config, Lighting, LightsFrom, Test};
+use crate::config::{Assign, Config, Labels, LightsFrom, Test, run_name};
 use crate::measure::{FrameCounts, FrameTimes, FrameTrace, ViewPixels};
 use crate::methods::MethodSpec;
 use crate::{Error, Result};
@@ -29,62 +29,36 @@ pub struct PlannedRun {
     pub assign: Assign,
     /// What decides who is on them: named, but for methods without clusters.
     pub test: Test,
-    /// Name of the lighting, for tables: its count, with its other fields where counts are equal.
-    pub lighting: String,
-    /// Name of the run directory: the method, and behind it the lighting, the way of assignment and the test, each
-    /// where there are several.
+    /// The configuration that asks for it and no other.
+    pub config: Config,
+    /// What it is called in tables.
+    pub labels: Labels,
+    /// Name of the run directory: see [`run_name`].
     pub name: String,
 }
 
 impl PlannedRun {
-    /// Where it stands in the product of the axes.
-    pub fn case(&self) -> Case {
-        Case { lights: self.lights.clone(), method: self.method, assign: self.assign, test: self.test }
-    }
-
     /// Refuses a test that cannot serve the method.
     ///
     /// # Errors
     /// Names both.
     pub fn check(&self) -> Result<()> {
-        self.case().check().map_err(Error::Input)
+        self.config.check_case().map_err(Error::Input)
     }
 }
 
-/// The runs a configuration asks for, in the order of [`Config::cases`].
+/// The runs a configuration asks for of its one scene, in the order of [`Config::cases`].
 pub fn planned_runs(config: &Config) -> Vec<PlannedRun> {
-    let sources = config.lights_from();
-    let planned = |case: Case| {
-        let lighting = lighting_name(&case.lights, &sources);
-        let name = run_name(config, &case, (sources.len() > 1).then_some(&lighting));
-        let Case { lights, method, assign, test } = case;
-        PlannedRun { method, lights, assign, test, lighting, name }
+    let planned = |run: Config| PlannedRun {
+        method: run.methods[0],
+        lights: run.lights_of_run(),
+        assign: run.assign[0],
+        test: run.test[0],
+        labels: Labels::new(&run, config),
+        name: run_name(&run, config),
+        config: run,
     };
     config.cases().into_iter().map(planned).collect()
-}
-
-fn run_name(config: &Config, case: &Case, lighting: Option<&String>) -> String {
-    let clustered = case.method != MethodSpec::AllLights;
-    let assign = (clustered && config.assign.len() > 1).then(|| case.assign.to_string());
-    let test = (clustered && config.test.len() > 1).then(|| case.test.to_string());
-    let parts = [Some(case.method.to_string()), lighting.cloned(), assign, test];
-    parts.into_iter().flatten().collect::<Vec<_>>().join("_")
-}
-
-/// What tells a lighting from the others.
-fn lighting_name(lights: &LightsFrom, all: &[LightsFrom]) -> String {
-    let count = |lights: &LightsFrom| match lights {
-        LightsFrom::Rain(lighting) => Some(lighting.count),
-        LightsFrom::File(_) | LightsFrom::Scene => None,
-    };
-    match lights {
-        LightsFrom::Rain(Lighting { count: n, intensity, cutoff, r0 })
-            if all.iter().filter(|other| count(other) == Some(*n)).count() > 1 =>
-        {
-            format!("{n}-{intensity}-{cutoff}-{r0}")
-        }
-        _ => lights.to_string(),
-    }
 }
 
 /// Writes `OUT/summary.csv`.

@@ -1,6 +1,7 @@
 //! The closing table: one row a method and lighting, with ratios to Indi Persp.
 
 use super::rows::FrameRow;
+use crate::config::{Axis, Labels, Role};
 use crate::methods::{MethodSpec, Sharing, Space};
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 use serde::Serialize;
@@ -103,16 +104,10 @@ fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
 /// One run as the table takes it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunMeans {
-    /// The scene's directory, empty where there is one scene.
-    pub scene: String,
     /// How lights were found.
     pub method: MethodSpec,
-    /// Name of the lighting: see [`super::PlannedRun::lighting`].
-    pub lighting: String,
-    /// The way of assignment, empty where the sweep has one.
-    pub assign: String,
-    /// The test of light against cluster, empty where the sweep has one.
-    pub test: String,
+    /// What it is called.
+    pub labels: Labels,
     /// How many frames the means are over.
     pub frames: usize,
     /// The means.
@@ -122,19 +117,9 @@ pub struct RunMeans {
 /// One method under one lighting in one scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SummaryRow {
-    /// The scene's directory, empty where there is one scene.
-    #[serde(skip_serializing_if = "String::is_empty")]
-    pub scene: String,
-    /// The method's name.
-    pub method: String,
-    /// The lighting's name.
-    pub lighting: String,
-    /// The way of assignment, empty where the sweep has one.
-    #[serde(skip_serializing_if = "String::is_empty")]
-    pub assign: String,
-    /// The test of light against cluster, empty where the sweep has one.
-    #[serde(skip_serializing_if = "String::is_empty")]
-    pub test: String,
+    /// What it is called: a field an axis that tells runs apart.
+    #[serde(flatten, serialize_with = "label_fields")]
+    pub labels: Labels,
     /// How many frames the means are over.
     pub frames: usize,
     /// The means.
@@ -159,11 +144,7 @@ impl Summary {
         let rows = runs.iter().map(|run| {
             let reference = &runs[reference(runs, run)];
             SummaryRow {
-                scene: run.scene.clone(),
-                method: run.method.to_string(),
-                lighting: run.lighting.clone(),
-                assign: run.assign.clone(),
-                test: run.test.clone(),
+                labels: run.labels.clone(),
                 frames: run.frames,
                 means: run.means,
                 reference: reference.method.to_string(),
@@ -173,19 +154,13 @@ impl Summary {
         Self { rows: rows.collect() }
     }
 
-    /// The columns that name rows: those of axes that tell rows apart, and the method and its lighting always.
-    fn naming_columns(&self) -> Vec<NamingColumn> {
-        let all: [NamingColumn; 5] = [
-            ("scene", |row| &row.scene),
-            ("method", |row| &row.method),
-            ("lighting", |row| &row.lighting),
-            ("assign", |row| &row.assign),
-            ("test", |row| &row.test),
-        ];
-        let needed = |(name, cell): &NamingColumn| {
-            matches!(*name, "method" | "lighting") || self.rows.iter().any(|row| !cell(row).is_empty())
+    /// The axes that name rows: those that tell rows apart, and the method and its lighting always.
+    fn naming_axes(&self) -> Vec<&'static Axis> {
+        let needed = |axis: &&Axis| {
+            matches!(axis.role, Role::Method | Role::Lighting)
+                || self.rows.iter().any(|row| !row.labels.get(axis).is_empty())
         };
-        all.into_iter().filter(needed).collect()
+        Axis::told().filter(needed).collect()
     }
 
     /// Writes the table as CSV: what names a row, means, then the reference, then ratios.
@@ -194,13 +169,14 @@ impl Summary {
     /// The writer fails.
     pub fn write_csv(&self, out: impl Write) -> io::Result<()> {
         let mut csv = csv::Writer::from_writer(out);
-        let naming = self.naming_columns();
-        let header = naming.iter().map(|(name, _)| (*name).to_owned()).chain(["frames".to_owned()]);
+        let naming = self.naming_axes();
+        let header = naming.iter().map(|axis| axis.column.to_owned()).chain(["frames".to_owned()]);
         let means = COLUMNS.map(|column| column.name.to_owned());
         let ratios = COLUMNS.map(|column| format!("{}_ratio", column.name));
         csv.write_record(header.chain(means).chain(["reference".to_owned()]).chain(ratios))?;
         for row in &self.rows {
-            let names = naming.iter().map(|(_, cell)| cell(row).clone()).chain([row.frames.to_string()]);
+            let names =
+                naming.iter().map(|axis| row.labels.get(axis).to_owned()).chain([row.frames.to_string()]);
             let means = COLUMNS.iter().zip(row.means.0).map(|(column, mean)| column.kind.cell(mean));
             let ratios = row.ratios.0.map(|ratio| Kind::Milliseconds.cell(ratio));
             csv.write_record(names.chain(means).chain([row.reference.clone()]).chain(ratios))?;
@@ -209,14 +185,18 @@ impl Summary {
     }
 }
 
-/// Its name in CSV, and its cell.
-type NamingColumn = (&'static str, fn(&SummaryRow) -> &String);
+/// A field for each label that is told.
+fn label_fields<S: Serializer>(labels: &Labels, serializer: S) -> Result<S::Ok, S::Error> {
+    let told = labels.iter().filter(|(_, label)| !label.is_empty());
+    serializer.collect_map(told.map(|(axis, label)| (axis.column, label)))
+}
 
 /// Index of the run that the ratios of `of` are to. Where there are several ways or tests, it is by the first.
 fn reference(runs: &[RunMeans], of: &RunMeans) -> usize {
-    let find = |wanted: &dyn Fn(&RunMeans) -> bool| {
-        runs.iter().position(|run| run.scene == of.scene && run.lighting == of.lighting && wanted(run))
+    let under = |run: &RunMeans| {
+        run.labels.of(&[Role::Scene, Role::Lighting]) == of.labels.of(&[Role::Scene, Role::Lighting])
     };
+    let find = |wanted: &dyn Fn(&RunMeans) -> bool| runs.iter().position(|run| under(run) && wanted(run));
     find(&|run| is_indi_persp(&run.method)).or_else(|| find(&|_| true)).unwrap_or(0)
 }
 
@@ -256,16 +236,16 @@ impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut table = Table::new();
         table.load_preset(TABLE_LINES).set_content_arrangement(ContentArrangement::Disabled);
-        let naming = self.naming_columns();
-        let names = naming.iter().map(|(name, _)| if *name == "lighting" { "lights" } else { *name });
+        let naming = self.naming_axes();
+        let names = naming.iter().map(|axis| axis.name);
         table.set_header(names.chain(COLUMNS.map(|column| column.heading)));
         for row in &self.rows {
             let values = COLUMNS.iter().zip(row.means.0.into_iter().zip(row.ratios.0));
             let cells = values.map(|(column, (value, ratio))| column.kind.shown(value, ratio));
-            table.add_row(naming.iter().map(|(_, cell)| cell(row).clone()).chain(cells));
+            table.add_row(naming.iter().map(|axis| row.labels.get(axis).to_owned()).chain(cells));
         }
         for (column, index) in table.column_iter_mut().zip(0..) {
-            let is_name = naming.get(index).is_some_and(|(name, _)| *name != "lighting");
+            let is_name = naming.get(index).is_some_and(|axis| axis.role != Role::Lighting);
             column.set_cell_alignment(if is_name { CellAlignment::Left } else { CellAlignment::Right });
         }
         for line in table.lines() {
@@ -284,10 +264,12 @@ impl Summary {
                 names.push(&row.reference);
             }
         }
-        let several =
-            |cell: fn(&SummaryRow) -> &String| self.rows.iter().any(|row| cell(row) != cell(&self.rows[0]));
-        let lights = if several(|row| &row.lighting) { " under the same lights" } else { "" };
-        let ways = several(|row| &row.assign) || several(|row| &row.test);
+        let several = |role: Role| {
+            let labels = |row: &SummaryRow| row.labels.of(&[role]).join(" ");
+            self.rows.iter().any(|row| labels(row) != labels(&self.rows[0]))
+        };
+        let lights = if several(Role::Lighting) { " under the same lights" } else { "" };
+        let ways = several(Role::Way);
         names.join(" and ") + lights + if ways { ", by its first way and test" } else { "" }
     }
 }

@@ -1,6 +1,6 @@
 use super::testing::{counts, manifest, times, view};
 use super::*;
-use crate::config::{Assign, Config, Lighting};
+use crate::config::{Assign, Axis, Config, Labels, Lighting};
 use crate::measure::{FrameCounts, FrameTimes};
 use std::collections::BTreeMap;
 use std::fs;
@@ -81,15 +81,13 @@ fn histograms_of_all_lights_are_per_view_and_know_no_clusters() {
 fn run(method: &str, lighting: &str, counts: &[FrameCounts], times: &[FrameTimes]) -> RunMeans {
     let minima = StageMinima::from_times(times);
     let rows: Vec<FrameRow> = tables::frames(counts, &minima).collect();
-    RunMeans {
-        scene: String::new(),
-        method: method.parse().unwrap(),
-        lighting: lighting.into(),
-        assign: String::new(),
-        test: String::new(),
-        frames: rows.len(),
-        means: Values::mean(&rows),
-    }
+    let config = Config {
+        methods: vec![method.parse().unwrap()],
+        lights: vec![lighting.parse().unwrap()],
+        ..Config::default()
+    };
+    let labels = Labels::new(&config, &config);
+    RunMeans { method: config.methods[0], labels, frames: rows.len(), means: Values::mean(&rows) }
 }
 
 /// Counts with twice the lighting computations.
@@ -151,7 +149,13 @@ fn summary_csv_has_means_and_ratios() {
 fn summary_names_ways_and_tests_where_runs_differ_in_them() {
     let means = |test: &str, light_indices| {
         let row = FrameRow { light_indices, ..FrameRow::default() };
-        RunMeans { test: test.into(), means: Values::mean(&[row]), ..run("indi-persp-64", "1000", &[], &[]) }
+        let all = Config { test: vec!["hs".parse().unwrap(), "exact".parse().unwrap()], ..Config::default() };
+        let one = Config { test: vec![test.parse().unwrap()], ..all.clone() };
+        RunMeans {
+            labels: Labels::new(&Config { methods: vec![one.methods[0]], ..one }, &all),
+            means: Values::mean(&[row]),
+            ..run("indi-persp-64", "1000", &[], &[])
+        }
     };
     let summary = Summary::from_means(&[means("hs", 8), means("exact", 2)]);
     let text = csv_text(|out| summary.write_csv(out));
@@ -169,9 +173,18 @@ fn summary_table_is_narrow_and_says_what_ratios_are_to() {
     let frame = FrameCounts { lighting_computations: 9_876_543_210, ..counts(0) };
     let (counts, times) = ([frame], [times(0, 0, 12_345.678)]);
     let names = ["indi-persp-64", "encl-displ-64-32"];
-    let runs: Vec<_> = names.iter().map(|name| run(name, "100000-100-0.5-0.1", &counts, &times)).collect();
+    let bright = Lighting::with_count(100_000);
+    let lights = vec![bright, Lighting { intensity: 20.0, ..bright }];
+    let all = Config { lights, ..Config::default() };
+    let long = |name: &&str| {
+        let config =
+            Config { methods: vec![name.parse().unwrap()], lights: vec![bright], ..Config::default() };
+        RunMeans { labels: Labels::new(&config, &all), ..run(name, "100000", &counts, &times) }
+    };
+    let runs: Vec<_> = names.iter().map(long).collect();
     let table = Summary::from_means(&runs).to_string();
     assert!(table.lines().all(|line| line.chars().count() < 140), "{table}");
+    assert!(table.contains("100000-100-0.5-0.1"), "{table}");
     assert!(
         table.contains("9 876 543 210 (1.00)") && table.ends_with("the ratio to indi-persp-64."),
         "{table}"
@@ -194,7 +207,8 @@ fn runs_are_named_by_method_and_by_lighting_where_needed() {
     let config = Config { lights: vec![thousand, Lighting::with_count(7)], ..Config::default() };
     let planned = planned_runs(&config);
     assert_eq!((planned.len(), planned[1].name.as_str()), (12, "encl-persp-64_1000"));
-    assert_eq!(planned[6].lighting, "7");
+    let lighting = |run: &PlannedRun| run.labels.get(Axis::named("lights").unwrap()).to_owned();
+    assert_eq!(lighting(&planned[6]), "7");
     let several = Config {
         methods: vec!["indi-persp-64".parse().unwrap(), "all-lights".parse().unwrap()],
         assign: vec![Assign::Hierarchy, Assign::Brute],
@@ -209,7 +223,7 @@ fn runs_are_named_by_method_and_by_lighting_where_needed() {
     let config = Config { lights: vec![thousand], test: several.test, ..Config::default() };
     assert_eq!(planned_runs(&config)[1].name, "indi-persp-64_hs+sat-n");
     let config = Config { lights: Vec::new(), scene_lights: true, ..Config::default() };
-    assert_eq!(planned_runs(&config)[0].lighting, "scene");
+    assert_eq!(lighting(&planned_runs(&config)[0]), "scene");
 }
 
 /// All files under a directory with their bytes.

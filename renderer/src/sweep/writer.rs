@@ -53,7 +53,7 @@ impl Files<'_> {
                 LightsFrom::Rain(lighting) => Some(lighting),
                 LightsFrom::File(_) | LightsFrom::Scene => None,
             },
-            config: self.part.run_config(run),
+            config: run.config.clone(),
             assigned_by: result.assigner.to_string(),
             scene: Source { name: scene.name.clone(), sha256: scene.sha256.clone() },
             recording: Source { name: recording.name().to_owned(), sha256: recording.sha256().to_owned() },

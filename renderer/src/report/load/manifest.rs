@@ -30,7 +30,7 @@ pub fn setting(run: &Manifest, views: u32, method: MethodSpec) -> Setting {
         msaa: run.config.msaa,
         options: options(&run.config),
         hashes: [run.scene.sha256.clone(), run.recording.sha256.clone()],
-        way: way(&run.config, method),
+        way: Way::new(&run.config, method),
     }
 }
 
@@ -43,13 +43,6 @@ fn options(config: &Config) -> Vec<String> {
         (*displaced_volume == DisplacedVolume::Own).then(|| "displaced volume own".to_owned()),
     ];
     unusual.into_iter().flatten().collect()
-}
-
-fn way(config: &Config, method: MethodSpec) -> Way {
-    fn names<T: ToString>(values: &[T]) -> String {
-        values.iter().map(ToString::to_string).collect::<Vec<_>>().join(" or ")
-    }
-    Way::new(Some(names(&config.assign)), Some(names(&config.test)), method)
 }
 
 /// Where its light came from.

@@ -149,7 +149,7 @@ fn ways_of_assignment_are_judged_apart() {
             flat("encl-ortho-4", 2, 1000, metric::VISIBLE, 50.0),
         ];
         for run in &mut runs {
-            run.setting.way = Way::new(Some(assign.into()), None, run.method);
+            run.setting.way = Way::named(assign, "auto", run.method);
         }
         runs
     };
