@@ -1,7 +1,9 @@
 //! The report as its readers meet it: the files, the page in a browser, one clear line for what is wrong.
 
 use manylight::config::Config;
-use manylight::measure::{ClusterRecord, ClusteringCounts, FrameCounts, FrameTimes, StageTime, ViewPixels};
+use manylight::measure::{
+    ClusterRecord, ClusteringCounts, DeviceCounts, FrameCounts, FrameTimes, StageTime, ViewPixels,
+};
 use manylight::output::{Manifest, RUN_FORMAT, RunWriter, Source};
 use manylight_tests::manylight;
 use std::ffi::OsStr;
@@ -61,7 +63,7 @@ fn counts(frame: u32, views: u32, clusterings: u32) -> FrameCounts {
         time_s: f64::from(frame) / 90.0,
         views,
         clusterings: vec![clustering; clusterings as usize],
-        lighting_computations: 1000 + u64::from(frame),
+        counters: DeviceCounts { lighting_computations: 1000 + u64::from(frame), ..DeviceCounts::default() },
         ..FrameCounts::default()
     }
 }

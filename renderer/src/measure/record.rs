@@ -1,5 +1,6 @@
 //! The records that passes produce and [`crate::output`] writes.
 
+use super::DeviceCounts;
 use half::f16;
 
 /// One visible cluster, read back in an atemporal run.
@@ -45,14 +46,8 @@ pub struct FrameCounts {
     pub views: u32,
     /// One entry a clustering: a view each for Indi, one for Encl, none for all-lights.
     pub clusterings: Vec<ClusteringCounts>,
-    /// Evaluations of one light for one fragment.
-    pub lighting_computations: u64,
-    /// Those closer than R1.
-    pub needed_computations: u64,
-    /// Fragment shader invocations that shaded.
-    pub fragments_shaded: u64,
-    /// Fragments whose cluster was not marked visible; always 0.
-    pub fragments_without_cluster: u64,
+    /// What the shaders counted, over clusterings.
+    pub counters: DeviceCounts,
     /// Per clustering (views for all-lights): (lights, fragments) for every bin with fragments, ascending.
     pub lights_per_fragment: Vec<Vec<(u32, u64)>>,
 }

@@ -124,15 +124,15 @@ frame_row! {
         /// Sum of the lengths of all light lists.
         light_indices: u64 = FrameCounts::light_indices;
         /// Evaluations of one light for one fragment.
-        lighting_computations: u64 = |counts| counts.lighting_computations;
+        lighting_computations: u64 = |counts| counts.counters.lighting_computations;
         /// Those closer than the light's radius R1.
-        needed_computations: u64 = |counts| counts.needed_computations;
+        needed_computations: u64 = |counts| counts.counters.needed_computations;
         /// Sphere against cluster tests, of nodes of the hierarchy too.
         intersection_tests: u64 = FrameCounts::intersection_tests;
         /// Invocations of the shading pass that passed the depth test.
-        fragments_shaded: u64 = |counts| counts.fragments_shaded;
+        fragments_shaded: u64 = |counts| counts.counters.fragments_shaded;
         /// Fragments whose cluster was not marked visible: none.
-        fragments_without_cluster: u64 = |counts| counts.fragments_without_cluster;
+        fragments_without_cluster: u64 = |counts| counts.counters.fragments_without_cluster;
         /// Light indices that did not fit: none.
         light_indices_dropped: u64 = FrameCounts::light_indices_dropped;
         /// Visible clusters that did not fit: none.

@@ -3,7 +3,8 @@
 use super::{DeviceInfo, Manifest, RUN_FORMAT, Source, git_revision};
 use crate::config::{Config, Lighting};
 use crate::measure::{
-    Capacities, ClusterRecord, ClusteringCounts, FrameCounts, FrameTimes, GrowthEvent, StageTime, ViewPixels,
+    Capacities, ClusterRecord, ClusteringCounts, DeviceCounts, FrameCounts, FrameTimes, GrowthEvent,
+    StageTime, ViewPixels,
 };
 use half::f16;
 
@@ -82,10 +83,12 @@ pub(super) fn counts(frame: u32) -> FrameCounts {
                 ..ClusteringCounts::default()
             },
         ],
-        lighting_computations: 650,
-        needed_computations: 600,
-        fragments_shaded: 257,
-        fragments_without_cluster: 0,
+        counters: DeviceCounts {
+            lighting_computations: 650,
+            needed_computations: 600,
+            fragments_shaded: 257,
+            ..DeviceCounts::default()
+        },
         lights_per_fragment: vec![vec![(2, 200), (5, 50)], vec![(0, 7)]],
     }
 }

@@ -92,8 +92,9 @@ fn run(method: &str, lighting: &str, counts: &[FrameCounts], times: &[FrameTimes
 
 /// Counts with twice the lighting computations.
 fn doubled(frame: u32) -> FrameCounts {
-    let counts = counts(frame);
-    FrameCounts { lighting_computations: counts.lighting_computations * 2, ..counts }
+    let mut counts = counts(frame);
+    counts.counters.lighting_computations *= 2;
+    counts
 }
 
 #[test]
@@ -170,7 +171,8 @@ fn summary_names_ways_and_tests_where_runs_differ_in_them() {
 
 #[test]
 fn summary_table_is_narrow_and_says_what_ratios_are_to() {
-    let frame = FrameCounts { lighting_computations: 9_876_543_210, ..counts(0) };
+    let mut frame = counts(0);
+    frame.counters.lighting_computations = 9_876_543_210;
     let (counts, times) = ([frame], [times(0, 0, 12_345.678)]);
     let names = ["indi-persp-64", "encl-displ-64-32"];
     let bright = Lighting::with_count(100_000);

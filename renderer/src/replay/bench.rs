@@ -13,7 +13,7 @@ use crate::Result;
 use crate::assign::Assigner;
 use crate::config::{Config, FrameRange, Lighting, LightsFrom, Test};
 use crate::geometry::SphereTest;
-use crate::gpu_interface::{ClusteringState, Counter};
+use crate::gpu_interface::ClusteringState;
 use crate::lights::PointLight;
 use crate::measure::Capacities;
 use crate::methods::MethodSpec;
@@ -174,7 +174,7 @@ impl Case<'_> {
         for (clustering, state) in states.iter().enumerate() {
             let at = (SLOT, self.plan.frame, clustering);
             let read = Counted::read(&mut engine, session, at, (*state, self.lights.len() as u32))?;
-            intersection_tests += read.counter(Counter::IntersectionTests);
+            intersection_tests += read.counters.intersection_tests;
         }
         let sum = |count: fn(&ClusteringState) -> u32| states.iter().map(|s| u64::from(count(s))).sum();
         Ok(BenchRow {
