@@ -13,7 +13,7 @@ pub(super) type Identity = Vec<String>;
 #[derive(Debug)]
 pub(super) struct RunEntry {
     pub identity: Identity,
-    /// How lists were built, and what decided who is on them: beside the others, these tell the runs of a sweep apart.
+    /// Its value on each axis that is a way of building lists: beside the others, these tell the runs of a sweep apart.
     /// Where they need not, runs are joined across them: so two ways or tests are compared.
     pub way: Vec<String>,
     /// The file of static lights as it was spelled, and its SHA-256, which earlier versions left out.
@@ -64,8 +64,8 @@ impl RunEntry {
     }
 }
 
-/// What decides what a run counts; the rest of its configuration says where results go, or how often and on what they are
-/// measured.
+/// What decides what a run counts; the rest of its configuration says where results go, or how often and on what they
+/// are measured.
 fn identity(run: &Manifest) -> Identity {
     let Config { resolution, msaa, attenuation, marking, displaced_volume, scene_lights, .. } = &run.config;
     vec![

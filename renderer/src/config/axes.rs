@@ -1,5 +1,5 @@
-//! The axes of the product that runs are made of. Each is one entry of [`AXES`]: the product, the rules of `exclude` with
-//! their schema, names of run directories, the closing table's columns and what reports tell runs apart by follow.
+//! The axes of the product that runs are made of. Each is one entry of [`AXES`]: the product, the rules of `exclude`
+//! with their schema, names of run directories, the closing table's columns and what reports tell runs apart by follow.
 
 use super::{Config, Lighting, LightsFrom, SceneEntry};
 use crate::methods::MethodSpec;
@@ -58,7 +58,8 @@ pub struct Axis {
 pub static AXES: [Axis; 6] = [
     Axis {
         name: "scene",
-        description: "The scene as the configuration has it, or its file's name without extension; `*` stands for any text.",
+        description: "The scene as the configuration has it, or its file's name without extension; `*` stands for any \
+                      text.",
         column: "scene",
         role: Role::Scene,
         values: Values::Names,
@@ -74,7 +75,8 @@ pub static AXES: [Axis; 6] = [
     },
     Axis {
         name: "recording",
-        description: "The recording as the configuration has it, or its file's name without extension; `*` stands for any text.",
+        description: "The recording as the configuration has it, or its file's name without extension; `*` stands for any \
+                      text.",
         column: "recording",
         role: Role::WithScene,
         values: Values::Names,

@@ -1,5 +1,5 @@
-//! How light lists were built: a run's value on each axis that is a method's way of working, such as the way of assignment
-//! and the test of light against cluster.
+//! How light lists were built: a run's value on each axis that is a method's way of working, such as the way of
+//! assignment and the test of light against cluster.
 
 use crate::config::{Axis, Config, Role};
 use crate::methods::MethodSpec;
