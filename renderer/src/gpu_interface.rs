@@ -28,6 +28,7 @@ pub use structs::{
 };
 
 use crate::lights::Attenuation;
+use crate::measure::DeviceCounts;
 use ash::vk;
 use std::fmt::Write as _;
 
@@ -200,32 +201,8 @@ pub const SORT_BLOCK: u32 = 128;
 /// Bytes of a texel of four words.
 const TEXEL_BYTES: u32 = 16;
 
-/// A 64-bit counter of the atemporal run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(u32)]
-pub enum Counter {
-    /// Fragments shaded.
-    FragmentsShaded,
-    /// Fragments whose cluster was not marked.
-    FragmentsWithoutCluster,
-    /// Evaluations of a light for a fragment.
-    LightingComputations,
-    /// Those closer than R1.
-    NeededComputations,
-    /// Sphere against cluster tests.
-    IntersectionTests,
-}
-
-/// How many counters there are.
-pub const COUNTER_COUNT: usize = 5;
-
-const COUNTERS: [(&str, Counter); COUNTER_COUNT] = [
-    ("COUNTER_FRAGMENTS_SHADED", Counter::FragmentsShaded),
-    ("COUNTER_FRAGMENTS_WITHOUT_CLUSTER", Counter::FragmentsWithoutCluster),
-    ("COUNTER_LIGHTING_COMPUTATIONS", Counter::LightingComputations),
-    ("COUNTER_NEEDED_COMPUTATIONS", Counter::NeededComputations),
-    ("COUNTER_INTERSECTION_TESTS", Counter::IntersectionTests),
-];
+/// How many 64-bit counters the atemporal run has: those of [`DeviceCounts`].
+pub const COUNTER_COUNT: usize = DeviceCounts::NAMES.len();
 
 const CONSTANTS: [(&str, u32); 31] = [
     ("SET_BUFFERS", SET_BUFFERS),
@@ -283,8 +260,8 @@ pub fn glsl() -> String {
             let _ = writeln!(text, "#define {name} {value}");
         }
     }
-    for (name, counter) in COUNTERS {
-        let _ = writeln!(text, "const uint {name} = {};", counter as u32);
+    for (place, name) in DeviceCounts::NAMES.iter().enumerate() {
+        let _ = writeln!(text, "const uint COUNTER_{} = {place};", name.to_uppercase());
     }
     for attenuation in Attenuation::ALL {
         let name = attenuation.to_string().to_uppercase();
@@ -364,9 +341,6 @@ mod tests {
     fn buffers_are_listed_in_the_order_of_their_bindings() {
         for (position, (binding, ..)) in BUFFERS.iter().enumerate() {
             assert_eq!(*binding as usize, position);
-        }
-        for (position, (_, counter)) in COUNTERS.iter().enumerate() {
-            assert_eq!(*counter as usize, position);
         }
     }
 }

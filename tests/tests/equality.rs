@@ -42,22 +42,22 @@ fn check_runs(config: Config) {
 fn check_counts(run: &Run, truth: &Run, marking: Marking) {
     for (counts, truth) in run.counts.iter().zip(&truth.counts) {
         let name = &run.planned.name;
-        assert_eq!(counts.fragments_without_cluster, 0, "{name}");
-        assert_eq!(counts.fragments_shaded, truth.fragments_shaded, "{name}");
+        assert_eq!(counts.counters.fragments_without_cluster, 0, "{name}");
+        assert_eq!(counts.counters.fragments_shaded, truth.counters.fragments_shaded, "{name}");
         assert_eq!(
-            counts.needed_computations, truth.needed_computations,
+            counts.counters.needed_computations, truth.counters.needed_computations,
             "{name} lost a light that is needed"
         );
-        assert!(counts.lighting_computations >= counts.needed_computations, "{name}");
+        assert!(counts.counters.lighting_computations >= counts.counters.needed_computations, "{name}");
         let marked: u64 =
             counts.clusterings.iter().flat_map(|c| &c.clusters).map(|c| u64::from(c.fragments)).sum();
         // The depth buffer holds one surface a sample; where several of equal depth meet, each is shaded.
-        let coplanar = counts.fragments_shaded - marked;
-        let most = if marking == Marking::Geometry { 0 } else { counts.fragments_shaded / 50 };
-        assert!(coplanar <= most, "{name}: {marked} marked, {} shaded", counts.fragments_shaded);
+        let coplanar = counts.counters.fragments_shaded - marked;
+        let most = if marking == Marking::Geometry { 0 } else { counts.counters.fragments_shaded / 50 };
+        assert!(coplanar <= most, "{name}: {marked} marked, {} shaded", counts.counters.fragments_shaded);
         let by_lights: u64 =
             counts.lights_per_fragment.iter().flatten().map(|(_, fragments)| fragments).sum();
-        assert_eq!(by_lights, counts.fragments_shaded, "{name}: histogram of lights per fragment");
+        assert_eq!(by_lights, counts.counters.fragments_shaded, "{name}: histogram of lights per fragment");
         for clustering in &counts.clusterings {
             assert_eq!((clustering.light_indices_dropped, clustering.visible_clusters_dropped), (0, 0));
         }

@@ -80,11 +80,11 @@ fn runs(away: [f64; 3], lights: Lights, stereo: bool) -> Vec<Run> {
 
 fn all_equal_brute_force(runs: &[Run], about: &str) {
     let truth = &runs[0];
-    assert!(truth.counts[0].needed_computations > 1000, "{about}: next to nothing is lit");
+    assert!(truth.counts[0].counters.needed_computations > 1000, "{about}: next to nothing is lit");
     for run in &runs[1..] {
         let (counts, name) = (&run.counts[0], &run.planned.name);
         assert_eq!(
-            counts.needed_computations, truth.counts[0].needed_computations,
+            counts.counters.needed_computations, truth.counts[0].counters.needed_computations,
             "{about}, {name} lost a light"
         );
         for (view, truth) in run.images[0].1.iter().zip(&truth.images[0].1) {
@@ -96,7 +96,7 @@ fn all_equal_brute_force(runs: &[Run], about: &str) {
 
 /// The same scene at home and away: all but pixels at edges, of surfaces and of lights, look the same.
 fn looks_as_at_home(home: &Run, away: &Run, about: &str) {
-    let [near, far] = [home, away].map(|run| run.counts[0].needed_computations as f64);
+    let [near, far] = [home, away].map(|run| run.counts[0].counters.needed_computations as f64);
     assert!((near - far).abs() < 0.002 * near, "{about}: {near} needed computations at home, {far} away");
     for (a, b) in home.images[0].1.iter().zip(&away.images[0].1) {
         let off = |at: &usize| {

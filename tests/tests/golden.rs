@@ -63,9 +63,9 @@ fn compare_counters(runs: &[Run], file: &str) {
                 sum(|c| c.dimensions.iter().map(|&d| u64::from(d)).product()),
                 sum(|c| c.visible_clusters),
                 sum(|c| c.light_indices),
-                counts.lighting_computations,
-                counts.needed_computations,
-                counts.fragments_shaded,
+                counts.counters.lighting_computations,
+                counts.counters.needed_computations,
+                counts.counters.fragments_shaded,
                 hashes.join(" ")
             )
             .unwrap();

@@ -21,7 +21,7 @@ fn config(msaa: u32) -> Config {
 fn compare(config: Config) -> Vec<Run> {
     let single = run(Config { multiview: false, ..config.clone() });
     let at_once = run(Config { multiview: true, ..config });
-    assert!(single.iter().any(|run| run.counts.iter().any(|counts| counts.fragments_shaded > 500)));
+    assert!(single.iter().any(|run| run.counts.iter().any(|counts| counts.counters.fragments_shaded > 500)));
     for (a, b) in single.iter().zip(&at_once) {
         let name = &a.planned.name;
         assert_eq!(a.counts, b.counts, "{name}: counters");

@@ -62,12 +62,16 @@ fn compare(run: &Run, reference: &Reference) {
     assert!(close(clustering.visible_clusters, visible), "{} clusters", clustering.visible_clusters);
     assert!(close(clustering.light_indices, reference.light_indices), "{} indices", clustering.light_indices);
     assert!(
-        close(counts.lighting_computations, reference.lighting_computations),
+        close(counts.counters.lighting_computations, reference.lighting_computations),
         "{} lighting computations",
-        counts.lighting_computations
+        counts.counters.lighting_computations
     );
-    assert!(close(counts.fragments_shaded, reference.fragments), "{} fragments", counts.fragments_shaded);
-    assert_eq!(counts.fragments_without_cluster, 0);
+    assert!(
+        close(counts.counters.fragments_shaded, reference.fragments),
+        "{} fragments",
+        counts.counters.fragments_shaded
+    );
+    assert_eq!(counts.counters.fragments_without_cluster, 0);
 
     let lists = &run.lists[0];
     let mut seen_by_both = 0;

@@ -28,18 +28,22 @@ fn runs(recording: &str, assign: Vec<Assign>, lights: Vec<Lighting>) -> Vec<Run>
 
 /// Runs that differ from `of` in their test or way alone, by what they found.
 fn siblings<'a>(runs: &'a [Run], of: &'a Run) -> impl Iterator<Item = &'a Run> {
-    let axes = |run: &Run| (run.planned.method, run.planned.lighting.clone());
+    let axes = |run: &Run| (run.planned.method, run.planned.lights.clone());
     runs.iter().filter(move |run| axes(run) == axes(of))
 }
 
 fn no_needed_light_is_lost(recording: &str) {
     let runs = runs(recording, vec![Assign::Hierarchy], lightings());
     assert_eq!(runs.len(), 3 * (1 + 6 * TESTS.len()));
-    for of_lighting in runs.chunk_by(|a, b| a.planned.lighting == b.planned.lighting) {
-        let needed = of_lighting[0].counts[0].needed_computations;
+    for of_lighting in runs.chunk_by(|a, b| a.planned.lights == b.planned.lights) {
+        let needed = of_lighting[0].counts[0].counters.needed_computations;
         assert!(needed > 100, "next to nothing is lit");
         for run in of_lighting {
-            assert_eq!(run.counts[0].needed_computations, needed, "{} lost a light", run.planned.name);
+            assert_eq!(
+                run.counts[0].counters.needed_computations, needed,
+                "{} lost a light",
+                run.planned.name
+            );
         }
     }
     for run in runs.iter().filter(|run| run.planned.name.ends_with("_exact")) {

@@ -154,7 +154,7 @@ fn the_far_plane_has_no_fragment_without_a_cluster() {
             let runs = run(Config { methods, marking, msaa, ..config });
             for run in &runs {
                 assert_eq!(
-                    run.counts[0].fragments_without_cluster, 0,
+                    run.counts[0].counters.fragments_without_cluster, 0,
                     "{} {marking:?} {msaa}",
                     run.planned.name
                 );

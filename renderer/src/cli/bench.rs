@@ -4,7 +4,7 @@ mod scopes;
 
 use super::{Console, Interrupt};
 use crate::assign::Assigner;
-use crate::config::{Assign, Case, Config, Layer, Lighting, Test};
+use crate::config::{Assign, Config, Layer, Lighting, Test};
 use crate::output::{prepare_file, write_whole};
 use crate::replay::bench::{AssignBench, BenchRow, bench_assign};
 use crate::replay::{Inputs, Watch};
@@ -168,7 +168,7 @@ impl Args {
             ..Layer::default()
         };
         let config = Config::resolve(None, layer)?;
-        config.cases().iter().try_for_each(Case::check).map_err(input)?;
+        config.cases().iter().try_for_each(Config::check_case).map_err(input)?;
         Ok(config)
     }
 

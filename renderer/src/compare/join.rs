@@ -1,14 +1,11 @@
 //! Joining runs by configuration, and the exact comparison of their counters.
 
-use super::read::{self, Counters, Identity, RunEntry};
+use super::read::{self, Identity, RunEntry};
 use super::{Comparison, CounterComparison, ResultSet, RunComparison, Spread, times};
 use crate::Result;
-use crate::output::{CLUSTERINGS, HISTOGRAMS, Older, check_run, newest_of_each};
-use std::collections::BTreeSet;
+use crate::output::{ClusteringRow, FrameRow, HistogramRow, Older, Row, check_run, newest_of_each};
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-
-/// Tables beside `frames.csv` that hold counters alone, with their columns.
-const TABLES: [(&str, &[&str]); 2] = [("clusterings.csv", &CLUSTERINGS), ("histograms.csv", &HISTOGRAMS)];
 
 pub(super) fn join(a: &Path, b: &Path) -> Result<Comparison> {
     let [mut runs_a, mut runs_b] = [read::find_runs(a)?, read::find_runs(b)?];
@@ -71,12 +68,11 @@ fn result_set(directory: &Path, runs: &[RunEntry]) -> ResultSet {
 fn compare_runs(a: &RunEntry, b: &RunEntry) -> Result<RunComparison> {
     let [counters_a, counters_b] = [read::counters(&a.directory)?, read::counters(&b.directory)?];
     let frames: BTreeSet<u32> =
-        counters_a.frames.keys().filter(|frame| counters_b.frames.contains_key(frame)).copied().collect();
-    let missing = |side: &Counters| side.frames.keys().filter(|f| !frames.contains(f)).copied().collect();
+        counters_a.keys().filter(|frame| counters_b.contains_key(frame)).copied().collect();
+    let missing = |side: &Frames| side.keys().filter(|f| !frames.contains(f)).copied().collect();
     let mut counters = compare_counters(&counters_a, &counters_b, &frames);
-    for table in TABLES {
-        counters.push(compare_tables(table, a, b, &frames)?);
-    }
+    counters.push(compare_tables(a, b, &frames, |row: &ClusteringRow| row.frame)?);
+    counters.push(compare_tables(a, b, &frames, |row: &HistogramRow| row.frame)?);
     Ok(RunComparison {
         run: a.label.clone(),
         frames: frames.len(),
@@ -87,20 +83,20 @@ fn compare_runs(a: &RunEntry, b: &RunEntry) -> Result<RunComparison> {
     })
 }
 
-/// A row a counter of either side; one that a side lacks counts as 0 there.
-fn compare_counters(a: &Counters, b: &Counters, frames: &BTreeSet<u32>) -> Vec<CounterComparison> {
-    let added = b.columns.iter().filter(|column| !a.columns.contains(column));
-    a.columns
-        .iter()
-        .chain(added)
-        .map(|metric| {
-            let values = |side: &Counters| -> Vec<u64> {
-                let column = side.columns.iter().position(|name| name == metric);
-                frames.iter().map(|frame| column.map_or(0, |column| side.frames[frame][column])).collect()
-            };
-            compare_values(metric, frames, &values(a), &values(b))
-        })
-        .collect()
+/// The rows of `frames.csv` by frame.
+type Frames = BTreeMap<u32, FrameRow>;
+
+/// A row a counter.
+fn compare_counters(a: &Frames, b: &Frames, frames: &BTreeSet<u32>) -> Vec<CounterComparison> {
+    let names = FrameRow::default().counters().map(|(name, _)| name).collect::<Vec<_>>();
+    let compare = |(place, metric): (usize, &&'static str)| {
+        let values = |side: &Frames| -> Vec<u64> {
+            let count = |frame| side[frame].counters().nth(place).map_or(0, |(_, count)| count);
+            frames.iter().map(count).collect()
+        };
+        compare_values(metric, frames, &values(a), &values(b))
+    };
+    names.iter().enumerate().map(compare).collect()
 }
 
 fn compare_values(metric: &str, frames: &BTreeSet<u32>, a: &[u64], b: &[u64]) -> CounterComparison {
@@ -125,16 +121,17 @@ fn ratio(a: u64, b: u64) -> Option<f64> {
     if a == b { Some(1.0) } else { (a != 0).then(|| b as f64 / a as f64) }
 }
 
-fn compare_tables(
-    table: (&str, &[&'static str]),
+/// Compares tables beside `frames.csv`, which hold counters alone, row by row.
+fn compare_tables<R: Row>(
     a: &RunEntry,
     b: &RunEntry,
     frames: &BTreeSet<u32>,
+    frame: fn(&R) -> u32,
 ) -> Result<CounterComparison> {
-    let [a, b] = [read::rows_by_frame(&a.directory, table)?, read::rows_by_frame(&b.directory, table)?];
+    let [a, b] = [read::rows_by_frame(&a.directory, frame)?, read::rows_by_frame(&b.directory, frame)?];
     let differing: Vec<u32> = frames.iter().filter(|frame| a.get(frame) != b.get(frame)).copied().collect();
     Ok(CounterComparison {
-        metric: table.0.to_owned(),
+        metric: R::FILE.to_owned(),
         a: None,
         b: None,
         ratio: None,

@@ -1,9 +1,8 @@
 //! The comparison of stage times: ratios of minima, and the noise between runs.
 
-use super::read;
 use super::{Spread, TimeComparison};
 use crate::Result;
-use crate::output::stage_kind;
+use crate::output::{TimingRow, each_row, stage_kind};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -24,15 +23,15 @@ pub(super) fn compare(a: &Path, b: &Path, frames: &BTreeSet<u32>) -> Result<Vec<
 
 fn kinds(directory: &Path, frames: &BTreeSet<u32>) -> Result<BTreeMap<String, KindTimes>> {
     let mut kinds: BTreeMap<String, KindTimes> = BTreeMap::new();
-    read::timings(directory, |row| {
-        if !frames.contains(&row.frame) {
-            return;
-        }
-        let times = kinds.entry(stage_kind(row.stage)).or_default();
+    each_row(directory, |_, row: TimingRow| {
+        // Stages without a GPU time are left out.
+        let Some(gpu_ms) = row.gpu_ms.filter(|_| frames.contains(&row.frame)) else { return Ok(()) };
+        let times = kinds.entry(stage_kind(&row.stage)).or_default();
         let stages = times.minima.entry(row.frame).or_default();
-        let minimum = stages.entry(row.stage.to_owned()).or_insert(f64::INFINITY);
-        *minimum = minimum.min(row.gpu_ms);
-        *times.totals.entry(row.run).or_default() += row.gpu_ms;
+        let minimum = stages.entry(row.stage).or_insert(f64::INFINITY);
+        *minimum = minimum.min(gpu_ms);
+        *times.totals.entry(row.run).or_default() += gpu_ms;
+        Ok(())
     })?;
     Ok(kinds)
 }

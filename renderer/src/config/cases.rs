@@ -1,4 +1,4 @@
-//! One point of the product of lightings, methods, ways of assignment and tests.
+//! What the configuration of one run says: the way of assignment and the test.
 
 use super::{Assign, Config, LightsFrom};
 use crate::geometry::SphereTest;
@@ -26,6 +26,11 @@ impl Test {
             Self::Auto => SphereTest::HALF_SPACES,
         }
     }
+
+    /// By its name for the clusters of `method`; a method without clusters has none.
+    pub fn resolved(self, method: &MethodSpec) -> Self {
+        if *method == MethodSpec::AllLights { Self::Auto } else { Self::Named(self.of(method)) }
+    }
 }
 
 /// Whether the method's clusters are axis-aligned boxes.
@@ -33,65 +38,23 @@ fn has_boxes(method: &MethodSpec) -> bool {
     matches!(method, MethodSpec::Clustered { space: Space::Ortho { .. }, .. })
 }
 
-/// What one run is made of besides its scene.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Case {
-    /// Where lights come from.
-    pub lights: LightsFrom,
-    /// How lights are found.
-    pub method: MethodSpec,
-    /// How the light lists are built.
-    pub assign: Assign,
-    /// What decides who is on them: named, but for methods without clusters.
-    pub test: Test,
-}
-
-impl Case {
-    /// Refuses a test that cannot serve the method's clusters.
+impl Config {
+    /// Refuses a run whose test cannot serve its method's clusters.
     ///
     /// # Errors
     /// Names both.
-    pub fn check(&self) -> Result<(), String> {
-        if self.test == Test::Named(SphereTest::Box) && !has_boxes(&self.method) {
-            return Err(format!(
-                "test: the clusters of {} are no boxes: test them with `exact`, or exclude the run",
-                self.method
-            ));
+    pub fn check_case(&self) -> Result<(), String> {
+        match (self.methods.first(), self.test.first()) {
+            (Some(method), Some(Test::Named(SphereTest::Box))) if !has_boxes(method) => Err(format!(
+                "test: the clusters of {method} are no boxes: test them with `exact`, or exclude the run"
+            )),
+            _ => Ok(()),
         }
-        Ok(())
-    }
-}
-
-impl Config {
-    /// Every method under the first lighting, then under the next; a method by every way of assignment, with every test.
-    /// What comes out the same is there once.
-    pub fn cases(&self) -> Vec<Case> {
-        let mut cases = Vec::new();
-        for lights in self.lights_from() {
-            for &method in &self.methods {
-                for (assign, test) in self.ways(&method) {
-                    cases.push(Case { lights: lights.clone(), method, assign, test });
-                }
-            }
-        }
-        cases
     }
 
-    /// (Way of assignment, test) of every run of a method.
-    fn ways(&self, method: &MethodSpec) -> Vec<(Assign, Test)> {
-        if *method == MethodSpec::AllLights {
-            return self.assign.first().map(|&assign| (assign, Test::Auto)).into_iter().collect();
-        }
-        let mut ways = Vec::new();
-        for &assign in &self.assign {
-            for test in &self.test {
-                let way = (assign, Test::Named(test.of(method)));
-                if !ways.contains(&way) {
-                    ways.push(way);
-                }
-            }
-        }
-        ways
+    /// Where the lights of a run's configuration come from.
+    pub fn lights_of_run(&self) -> LightsFrom {
+        self.lights_from().into_iter().next().unwrap_or(LightsFrom::Scene)
     }
 }
 
@@ -152,7 +115,8 @@ mod tests {
     }
 
     fn ways(config: &Config) -> Vec<String> {
-        config.cases().iter().map(|case| format!("{} {} {}", case.method, case.assign, case.test)).collect()
+        let way = |run: &Config| format!("{} {} {}", run.methods[0], run.assign[0], run.test[0]);
+        config.cases().iter().map(way).collect()
     }
 
     #[test]
@@ -184,7 +148,7 @@ mod tests {
 
     #[test]
     fn boxes_serve_boxes_alone() {
-        let refused = |method: &str| config(&[method], &["box"]).cases()[0].check().err();
+        let refused = |method: &str| config(&[method], &["box"]).cases()[0].check_case().err();
         assert_eq!(refused("encl-ortho-4"), None);
         assert_eq!(refused("all-lights"), None);
         assert!(refused("encl-persp-64").unwrap().contains("encl-persp-64 are no boxes"));

@@ -1,17 +1,19 @@
-//! Rules that leave combinations out of the product of scenes, lightings, methods, ways of assignment and tests.
+//! Rules that leave combinations out of the product of the axes.
 
-use super::{Case, Lighting, LightsFrom, SceneEntry};
-use crate::methods::MethodSpec;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use super::Config;
+use super::axes::{AXES, Axis, Values};
+use crate::nearest;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{self, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
 use std::fmt;
-use std::path::Path;
 use std::str::FromStr;
 
 /// One name, or several of which any may match; `*` in a name stands for any text.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "a name or a list of names")]
-pub enum Names {
+enum Names {
     /// This one.
     One(String),
     /// Any of these.
@@ -21,67 +23,50 @@ pub enum Names {
 /// One number of lights, or several of which any may match.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "a number of lights or a list of them")]
-pub enum Counts {
+enum Counts {
     /// This one.
     One(u32),
     /// Any of these.
     Any(Vec<u32>),
 }
 
+/// What a rule says of an axis.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+enum Wanted {
+    Names(Names),
+    Counts(Counts),
+}
+
 /// Leaves out every run that matches all the fields given; a field that is left out matches everything.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "an object with any of scene, recording, lights, method, assign and test"
-)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Exclude {
-    /// The scene as the configuration has it, or its file's name without extension; `*` stands for any text.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub scene: Option<Names>,
-    /// The recording as the configuration has it, or its file's name without extension; `*` stands for any text.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub recording: Option<Names>,
-    /// How many lights fall.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub lights: Option<Counts>,
-    /// The method's name; `*` stands for any text.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub method: Option<Names>,
-    /// The way of assignment; `*` stands for any text.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub assign: Option<Names>,
-    /// The test of light against cluster, `auto` as what it is for the method; `*` stands for any text.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub test: Option<Names>,
+    /// In the order of [`AXES`].
+    wanted: Vec<(&'static Axis, Wanted)>,
 }
 
-/// Names of all fields.
-const FIELDS: [&str; 6] = ["scene", "recording", "lights", "method", "assign", "test"];
-
-impl Names {
-    fn list(&self) -> &[String] {
+impl Wanted {
+    /// The alternatives.
+    fn list(&self) -> Vec<Cow<'_, str>> {
         match self {
-            Self::One(name) => std::slice::from_ref(name),
-            Self::Any(names) => names,
+            Self::Names(Names::One(name)) => vec![name.into()],
+            Self::Names(Names::Any(names)) => names.iter().map(Into::into).collect(),
+            Self::Counts(Counts::One(count)) => vec![count.to_string().into()],
+            Self::Counts(Counts::Any(counts)) => {
+                counts.iter().map(|count| count.to_string().into()).collect()
+            }
         }
     }
 
-    fn matches(&self, name: &str) -> bool {
-        self.list().iter().any(|pattern| matches(pattern, name))
-    }
-
-    fn matches_file(&self, name: &str) -> bool {
-        let stem = Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned());
-        self.matches(name) || stem.is_some_and(|stem| self.matches(&stem))
-    }
-}
-
-impl Counts {
-    fn list(&self) -> &[u32] {
-        match self {
-            Self::One(count) => std::slice::from_ref(count),
-            Self::Any(counts) => counts,
-        }
+    /// Reads alternatives with `|` between; `None` where a number is none.
+    fn parse(values: Values, text: &str) -> Option<Self> {
+        let parts = text.split('|').map(str::trim);
+        Some(match values {
+            Values::Names => Self::Names(Names::Any(parts.map(str::to_owned).collect())),
+            Values::Counts => {
+                Self::Counts(Counts::Any(parts.map(str::parse).collect::<Result<_, _>>().ok()?))
+            }
+        })
     }
 }
 
@@ -92,65 +77,127 @@ fn matches(pattern: &str, name: &str) -> bool {
     rest.char_indices().map(|(start, _)| start).chain([rest.len()]).any(|start| matches(tail, &rest[start..]))
 }
 
+/// Names of all axes.
+fn axis_names() -> [&'static str; AXES.len()] {
+    std::array::from_fn(|place| AXES[place].name)
+}
+
 impl Exclude {
-    /// Whether a run is left out.
-    pub fn matches(&self, scene: &SceneEntry, case: &Case) -> bool {
-        // A method without clusters is under no way or test.
-        let clustered = case.method != MethodSpec::AllLights;
-        let way = |names: &Option<Names>, name: String| {
-            names.as_ref().is_none_or(|names| clustered && names.matches(&name))
-        };
-        self.scene.as_ref().is_none_or(|names| names.matches_file(&scene.scene))
-            && self.recording.as_ref().is_none_or(|names| names.matches_file(&scene.recording))
-            && self.lights.as_ref().is_none_or(|counts| match &case.lights {
-                LightsFrom::Rain(Lighting { count, .. }) => counts.list().contains(count),
-                LightsFrom::File(_) | LightsFrom::Scene => false,
-            })
-            && self.method.as_ref().is_none_or(|names| names.matches(&case.method.to_string()))
-            && way(&self.assign, case.assign.to_string())
-            && way(&self.test, case.test.to_string())
+    /// Whether the run of a configuration is left out.
+    pub fn matches(&self, run: &Config) -> bool {
+        self.wanted.iter().all(|(axis, wanted)| {
+            let alternatives = wanted.list();
+            axis.is_called(run, |name| alternatives.iter().any(|pattern| matches(pattern, name)))
+        })
     }
 
     /// Refuses a rule that says nothing.
     pub(super) fn check(&self) -> Result<(), String> {
-        if *self == Self::default() {
-            return Err(format!("an empty rule leaves everything out: give any of {}", FIELDS.join(", ")));
+        if self.wanted.is_empty() {
+            let names = axis_names().join(", ");
+            return Err(format!("an empty rule leaves everything out: give any of {names}"));
         }
-        let names = [
-            ("scene", &self.scene),
-            ("recording", &self.recording),
-            ("method", &self.method),
-            ("assign", &self.assign),
-            ("test", &self.test),
-        ];
-        let empty =
-            names.iter().find(|(_, names)| names.as_ref().is_some_and(|names| names.list().is_empty()));
-        let counts = self.lights.as_ref().is_some_and(|counts| counts.list().is_empty());
-        match (empty, counts) {
-            (Some((field, _)), _) => Err(format!("{field}: an empty list matches nothing")),
-            (None, true) => Err("lights: an empty list matches nothing".into()),
-            (None, false) => Ok(()),
+        match self.wanted.iter().find(|(_, wanted)| wanted.list().is_empty()) {
+            Some((axis, _)) => Err(format!("{}: an empty list matches nothing", axis.name)),
+            None => Ok(()),
         }
+    }
+
+    /// Takes what is said of an axis, in place of what was said before.
+    fn set(&mut self, axis: &'static Axis, wanted: Wanted) {
+        self.wanted.retain(|(other, _)| *other != axis);
+        self.wanted.push((axis, wanted));
+        let place = |axis: &Axis| AXES.iter().position(|other| other == axis);
+        self.wanted.sort_by_key(|(axis, _)| place(axis));
+    }
+}
+
+impl Serialize for Exclude {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.wanted.iter().map(|(axis, wanted)| (axis.name, wanted)))
+    }
+}
+
+impl<'de> Deserialize<'de> for Exclude {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(RuleVisitor)
+    }
+}
+
+struct RuleVisitor;
+
+impl<'de> Visitor<'de> for RuleVisitor {
+    type Value = Exclude;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names = axis_names();
+        let (last, others) = names.split_last().unwrap_or((&"", &[]));
+        write!(f, "an object with any of {} and {last}", others.join(", "))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Exclude, A::Error> {
+        let mut rule = Exclude::default();
+        while let Some(AxisName(axis)) = map.next_key()? {
+            let wanted = match axis.values {
+                Values::Names => map.next_value::<Option<Names>>()?.map(Wanted::Names),
+                Values::Counts => map.next_value::<Option<Counts>>()?.map(Wanted::Counts),
+            };
+            if let Some(wanted) = wanted {
+                rule.set(axis, wanted);
+            }
+        }
+        Ok(rule)
+    }
+}
+
+/// An axis by its name.
+struct AxisName(&'static Axis);
+
+impl<'de> Deserialize<'de> for AxisName {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        let unknown = || {
+            let names: Vec<String> = axis_names().iter().map(|name| format!("`{name}`")).collect();
+            de::Error::custom(format!("unknown field `{name}`, expected one of {}", names.join(", ")))
+        };
+        Axis::named(&name).map(Self).ok_or_else(unknown)
+    }
+}
+
+impl JsonSchema for Exclude {
+    fn schema_name() -> Cow<'static, str> {
+        "Exclude".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let mut properties = serde_json::Map::new();
+        for axis in &AXES {
+            let values = match axis.values {
+                Values::Names => generator.subschema_for::<Names>(),
+                Values::Counts => generator.subschema_for::<Counts>(),
+            };
+            let property = json_schema!({
+                "anyOf": [values, { "type": "null" }],
+                "description": axis.description
+            });
+            properties.insert(axis.name.into(), property.into());
+        }
+        json_schema!({
+            "type": "object",
+            "additionalProperties": false,
+            "properties": properties,
+            "description":
+                "Leaves out every run that matches all the fields given; a field that is left out matches everything."
+        })
     }
 }
 
 impl fmt::Display for Exclude {
-    /// Writes `scene=..,recording=..,lights=..,method=..,assign=..,test=..` with `|` between alternatives.
+    /// Writes `AXIS=..` with commas between, and `|` between alternatives.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let names = |names: &Option<Names>| names.as_ref().map(|names| names.list().join("|"));
-        let counts =
-            |counts: &Counts| counts.list().iter().map(ToString::to_string).collect::<Vec<_>>().join("|");
-        let fields = [
-            ("scene", names(&self.scene)),
-            ("recording", names(&self.recording)),
-            ("lights", self.lights.as_ref().map(counts)),
-            ("method", names(&self.method)),
-            ("assign", names(&self.assign)),
-            ("test", names(&self.test)),
-        ];
-        let given: Vec<String> =
-            fields.into_iter().filter_map(|(field, value)| Some(format!("{field}={}", value?))).collect();
-        f.write_str(&given.join(","))
+        let given =
+            self.wanted.iter().map(|(axis, wanted)| format!("{}={}", axis.name, wanted.list().join("|")));
+        f.write_str(&given.collect::<Vec<_>>().join(","))
     }
 }
 
@@ -162,22 +209,11 @@ impl FromStr for Exclude {
         let wrong = || format!("`{text}` is no rule such as scene=street,lights=1000|10000,method=encl-*");
         let mut rule = Self::default();
         for part in text.split(',') {
-            let (field, value) = part.split_once('=').ok_or_else(wrong)?;
-            let names = || Some(Names::Any(value.split('|').map(|name| name.trim().to_owned()).collect()));
-            match field.trim() {
-                "scene" => rule.scene = names(),
-                "recording" => rule.recording = names(),
-                "method" => rule.method = names(),
-                "assign" => rule.assign = names(),
-                "test" => rule.test = names(),
-                "lights" => {
-                    let counts = value.split('|').map(|count| count.trim().parse()).collect::<Result<_, _>>();
-                    rule.lights = Some(Counts::Any(counts.map_err(|_| wrong())?));
-                }
-                field => {
-                    return Err(format!("`{field}` is no axis{}", crate::nearest::hint(field, &FIELDS)));
-                }
-            }
+            let (name, values) = part.split_once('=').ok_or_else(wrong)?;
+            let name = name.trim();
+            let axis = Axis::named(name)
+                .ok_or_else(|| format!("`{name}` is no axis{}", nearest::hint(name, &axis_names())))?;
+            rule.set(axis, Wanted::parse(axis.values, values).ok_or_else(wrong)?);
         }
         rule.check().map(|()| rule)
     }
@@ -186,7 +222,7 @@ impl FromStr for Exclude {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::Assign;
+    use crate::config::{Assign, Lighting};
 
     #[test]
     fn stars_stand_for_any_text() {
@@ -205,29 +241,25 @@ mod tests {
     #[test]
     fn all_given_fields_must_match() {
         let rule: Exclude = "scene=street|bistro,lights=1000,method=encl-*".parse().unwrap();
-        let scene = |scene: &str| SceneEntry {
+        let run = |scene: &str, count, method: &str| Config {
             scene: scene.into(),
             recording: "bistro".into(),
-            resolution: None,
-            frames: None,
+            lights: vec![Lighting::with_count(count)],
+            methods: vec![method.parse().unwrap()],
+            assign: vec![Assign::Scatter],
+            test: vec!["hs+sat-n".parse().unwrap()],
+            ..Config::default()
         };
-        let case = |count, method: &str| Case {
-            lights: LightsFrom::Rain(Lighting::with_count(count)),
-            method: method.parse().unwrap(),
-            assign: Assign::Scatter,
-            test: "hs+sat-n".parse().unwrap(),
-        };
-        assert!(rule.matches(&scene("street"), &case(1000, "encl-ortho-4")));
-        assert!(rule.matches(&scene("scenes/bistro.gltf"), &case(1000, "encl-ortho-4")));
-        assert!(!rule.matches(&scene("temple"), &case(1000, "encl-ortho-4")));
-        assert!(!rule.matches(&scene("street"), &case(10, "encl-ortho-4")));
-        let lit = Case { lights: LightsFrom::Scene, ..case(1000, "encl-ortho-4") };
-        assert!(!rule.matches(&scene("street"), &lit));
-        assert!(!rule.matches(&scene("street"), &case(1000, "indi-ortho-4")));
+        assert!(rule.matches(&run("street", 1000, "encl-ortho-4")));
+        assert!(rule.matches(&run("scenes/bistro.gltf", 1000, "encl-ortho-4")));
+        assert!(!rule.matches(&run("temple", 1000, "encl-ortho-4")));
+        assert!(!rule.matches(&run("street", 10, "encl-ortho-4")));
+        let lit = Config { lights: vec![], scene_lights: true, ..run("street", 1000, "encl-ortho-4") };
+        assert!(!rule.matches(&lit));
+        assert!(!rule.matches(&run("street", 1000, "indi-ortho-4")));
 
-        let ways = |text: &str, method: &str| {
-            text.parse::<Exclude>().unwrap().matches(&scene("street"), &case(1, method))
-        };
+        let ways =
+            |text: &str, method: &str| text.parse::<Exclude>().unwrap().matches(&run("street", 1, method));
         assert!(ways("assign=scatter|auto,test=*sat-*", "encl-ortho-4"));
         assert!(!ways("assign=brute", "encl-ortho-4") && !ways("test=exact", "encl-ortho-4"));
         assert!(!ways("test=*", "all-lights") && !ways("assign=*", "all-lights"), "it has neither");

@@ -274,6 +274,16 @@ impl Config {
     }
 }
 
+impl TryFrom<Layer> for Config {
+    type Error = String;
+
+    /// The layer over the defaults.
+    fn try_from(layer: Layer) -> Result<Self, String> {
+        let mut config = Self::default();
+        config.apply(layer).map(|()| config)
+    }
+}
+
 fn set<T>(field: &mut T, value: Option<T>) {
     if let Some(value) = value {
         *field = value;

@@ -3,6 +3,7 @@
 //! Three layers, each over the one before: the built-in defaults, a JSON file, the flags. One declaration,
 //! [`Layer`], is the file's format, its schema and the flags at once.
 
+mod axes;
 mod cases;
 mod exclude;
 mod file;
@@ -15,8 +16,9 @@ mod values;
 #[cfg(test)]
 mod tests;
 
-pub use cases::{Case, Test};
-pub use exclude::{Counts, Exclude, Names};
+pub use axes::{AXES, Axis, Labels, Role, run_name};
+pub use cases::Test;
+pub use exclude::Exclude;
 pub use layer::Layer;
 pub use schema::json_schema;
 pub use values::resolution as parse_resolution;
@@ -157,8 +159,10 @@ pub struct SceneEntry {
     pub frames: Option<FrameRange>,
 }
 
-/// One fully resolved run configuration. Serialized, it is a configuration file again.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// One fully resolved run configuration. Serialized, it is a configuration file again; read back, what is left out has
+/// its default.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Layer")]
 pub struct Config {
     /// Built-in name or path of a scene.
     pub scene: String,
@@ -339,10 +343,8 @@ impl Config {
 
     /// Refuses rules that leave nothing out: most are misspelt.
     fn check_excludes(&self) -> Result<()> {
-        let scenes = self.scene_entries();
-        let cases = self.cases();
-        let matched =
-            |rule: &Exclude| scenes.iter().any(|scene| cases.iter().any(|case| rule.matches(scene, case)));
+        let runs: Vec<Self> = self.by_scene().iter().flat_map(Self::cases).collect();
+        let matched = |rule: &Exclude| runs.iter().any(|run| rule.matches(run));
         match self.exclude.iter().find(|rule| !matched(rule)) {
             Some(rule) => Err(Error::Input(format!(
                 "exclude: the rule {rule} matches no run: mend its names, or leave it out"

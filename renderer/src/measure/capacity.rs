@@ -1,9 +1,9 @@
 //! What buffers hold, and when they grew.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// How many entries a clustering's buffers hold.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Capacities {
     /// Visible clusters.
     pub visible_clusters: u32,
@@ -12,7 +12,7 @@ pub struct Capacities {
 }
 
 /// Buffers grew because a frame needed more, and the frame was rendered again.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct GrowthEvent {
     /// Frame number in the recording.
     pub frame: u32,

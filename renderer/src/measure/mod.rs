@@ -2,11 +2,13 @@
 //! temporal runs.
 
 mod capacity;
+mod counters;
 mod lists;
 mod record;
 mod trace;
 
 pub use capacity::{Capacities, GrowthEvent};
+pub use counters::DeviceCounts;
 pub use lists::ClusterLists;
 pub use record::{ClusterRecord, ClusteringCounts, FrameCounts, FrameTimes, StageTime, ViewPixels};
 pub use trace::{FrameTrace, StageSpan};

@@ -1,5 +1,6 @@
 //! The records that passes produce and [`crate::output`] writes.
 
+use super::DeviceCounts;
 use crate::{Error, Result};
 use half::f16;
 
@@ -46,14 +47,8 @@ pub struct FrameCounts {
     pub views: u32,
     /// One entry a clustering: a view each for Indi, one for Encl, none for all-lights.
     pub clusterings: Vec<ClusteringCounts>,
-    /// Evaluations of one light for one fragment.
-    pub lighting_computations: u64,
-    /// Those closer than R1.
-    pub needed_computations: u64,
-    /// Fragment shader invocations that shaded.
-    pub fragments_shaded: u64,
-    /// Fragments whose cluster was not marked visible; always 0.
-    pub fragments_without_cluster: u64,
+    /// What the shaders counted, over clusterings.
+    pub counters: DeviceCounts,
     /// Per clustering (views for all-lights): (lights, fragments) for every bin with fragments, ascending.
     pub lights_per_fragment: Vec<Vec<(u32, u64)>>,
 }
@@ -145,7 +140,7 @@ impl FrameCounts {
     /// dropped.
     pub fn check(&self) -> Result<()> {
         let faults = [
-            (self.fragments_without_cluster, "shaded fragments found no visible cluster"),
+            (self.counters.fragments_without_cluster, "shaded fragments found no visible cluster"),
             (self.light_indices_dropped(), "light indices did not fit and were dropped"),
             (self.visible_clusters_dropped(), "visible clusters did not fit and were dropped"),
         ];
@@ -174,7 +169,7 @@ mod tests {
             FrameCounts { frame: 7, clusterings: vec![ClusteringCounts::default(); 2], ..Default::default() };
         whole.check().unwrap();
         let mut faults = [whole.clone(), whole.clone(), whole];
-        faults[0].fragments_without_cluster = 3;
+        faults[0].counters.fragments_without_cluster = 3;
         faults[1].clusterings[1].light_indices_dropped = 4;
         faults[2].clusterings[0].visible_clusters_dropped = 5;
         for (counts, what) in faults.iter().zip(["3 shaded", "4 light indices", "5 visible clusters"]) {

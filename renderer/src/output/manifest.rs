@@ -1,9 +1,16 @@
 //! `run.json`: how a run came to be.
 
+use super::strict::{refuse, shown};
 use crate::config::{Config, Lighting};
 use crate::measure::{Capacities, GrowthEvent};
-use serde::Serialize;
-use std::time::{Duration, SystemTime, UNIX_EPOCH};
+use crate::{Error, Result};
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+/// By this file a run directory is known.
+pub const MANIFEST: &str = "run.json";
 
 /// Format and version of `run.json`.
 pub const RUN_FORMAT: &str = "manylight.run/1";
@@ -13,16 +20,17 @@ pub fn git_revision() -> &'static str {
     env!("MANYLIGHT_GIT_REVISION")
 }
 
-/// Everything that made a run what it is.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// Everything that made a run what it is. What earlier versions left out may be missing.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     /// [`RUN_FORMAT`].
-    pub format: &'static str,
+    pub format: String,
     /// Version of the program.
-    pub version: &'static str,
+    pub version: String,
     /// [`git_revision`].
-    pub git_revision: &'static str,
+    pub git_revision: String,
     /// Hexadecimal SHA-256 over all that the run's results depend on; a run with the same is not made again.
+    #[serde(default)]
     pub fingerprint: String,
     /// The method's name.
     pub method: String,
@@ -31,6 +39,7 @@ pub struct Manifest {
     /// The fully resolved configuration of this run alone; it can be replayed as it is.
     pub config: Config,
     /// How the light lists were built: `brute`, `hierarchy` or `scatter`.
+    #[serde(default)]
     pub assigned_by: String,
     /// The scene drawn.
     pub scene: Source,
@@ -40,21 +49,25 @@ pub struct Manifest {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lights_file: Option<Source>,
     /// Rows of `frames.csv`.
-    pub frame_count: usize,
+    pub frame_count: Option<usize>,
     /// The device that rendered.
     pub device: DeviceInfo,
     /// Buffer capacities at the end of the run.
+    #[serde(default)]
     pub capacities: Capacities,
     /// Each time that buffers grew.
+    #[serde(default)]
     pub growth: Vec<GrowthEvent>,
     /// When the run started, RFC 3339, UTC.
+    #[serde(default)]
     pub started: String,
     /// How long it took, seconds.
+    #[serde(default)]
     pub duration_s: f64,
 }
 
 /// A named input.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Source {
     /// Its name.
     pub name: String,
@@ -63,49 +76,106 @@ pub struct Source {
 }
 
 /// The device that rendered.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DeviceInfo {
     /// Its name.
     pub name: String,
     /// Driver and its version.
     pub driver: String,
     /// Version of the Vulkan API it offers.
+    #[serde(default)]
     pub api: String,
+}
+
+impl Manifest {
+    /// Reads the manifest of the run in `directory`, by this version of the program or an earlier one.
+    ///
+    /// # Errors
+    /// It is missing, damaged, of another format, or was not written by a replay.
+    pub fn read(directory: &Path) -> Result<Self> {
+        let path = &directory.join(MANIFEST);
+        let bytes = fs::read(path).map_err(|error| Error::file(path, format!("cannot be read: {error}")))?;
+        check_format(&bytes).map_err(|problem| Error::file(path, problem))?;
+        serde_path_to_error::deserialize(&mut serde_json::Deserializer::from_slice(&bytes)).map_err(|error| {
+            let field = match error.path().to_string().as_str() {
+                "." => String::new(),
+                field => format!("{field}: "),
+            };
+            let problem = format!("{field}{}", error.inner()).replace('\n', " ");
+            refuse(path, format!("is no manifest of a run: {problem}"))
+        })
+    }
+}
+
+/// Says what is wrong with what is no manifest of this version's format.
+fn check_format(bytes: &[u8]) -> Result<(), String> {
+    let manifest: serde_json::Value =
+        serde_json::from_slice(bytes).map_err(|error| format!("is no JSON: {error}: measure it again"))?;
+    match manifest.get("format").and_then(serde_json::Value::as_str) {
+        Some(RUN_FORMAT) => Ok(()),
+        Some(other) if other.starts_with("manylight.run/") => {
+            Err(format!("has format {}, this version reads {RUN_FORMAT}: measure it again", shown(other)))
+        }
+        _ => Err(format!("was not written by a replay (its format is not {RUN_FORMAT}): leave it out")),
+    }
 }
 
 /// A moment as RFC 3339 in UTC to the second: `2026-11-05T09:03:07Z`. Moments before 1970 count as its start.
 pub fn rfc3339_utc(time: SystemTime) -> String {
-    let seconds = time.duration_since(UNIX_EPOCH).unwrap_or(Duration::ZERO).as_secs();
-    let (year, month, day) = civil_date(seconds / 86_400);
-    let (hour, minute, second) = (seconds / 3600 % 24, seconds / 60 % 60, seconds % 60);
-    format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z")
-}
-
-/// Year, month and day of a number of days since 1970-01-01, in the Gregorian calendar.
-fn civil_date(days: u64) -> (u64, u64, u64) {
-    // Counted from 0000-03-01, leap days end their years, and 400 years are 146097 days.
-    let days = days + 719_468;
-    let (era, day_of_era) = (days / 146_097, days % 146_097);
-    let year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
-    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-    let month_from_march = (5 * day_of_year + 2) / 153;
-    let day = day_of_year - (153 * month_from_march + 2) / 5 + 1;
-    let month = if month_from_march < 10 { month_from_march + 3 } else { month_from_march - 9 };
-    (era * 400 + year_of_era + u64::from(month <= 2), month, day)
+    humantime::format_rfc3339_seconds(time.max(UNIX_EPOCH)).to_string()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::testing::manifest;
+    use std::time::Duration;
 
     #[test]
     fn times_are_rfc_3339() {
-        let at = |seconds| rfc3339_utc(UNIX_EPOCH + Duration::from_secs(seconds));
-        assert_eq!(at(0), "1970-01-01T00:00:00Z");
-        assert_eq!(at(951_782_400), "2000-02-29T00:00:00Z");
-        assert_eq!(at(951_868_799), "2000-02-29T23:59:59Z");
-        assert_eq!(at(1_735_689_599), "2024-12-31T23:59:59Z");
-        assert_eq!(at(4_107_542_400), "2100-03-01T00:00:00Z");
+        let at = UNIX_EPOCH + Duration::from_secs(951_868_799);
+        assert_eq!(rfc3339_utc(at), "2000-02-29T23:59:59Z");
+        assert_eq!(rfc3339_utc(UNIX_EPOCH - Duration::from_secs(1)), "1970-01-01T00:00:00Z");
+    }
+
+    /// What is read of `value`, written as a manifest.
+    fn read(value: &serde_json::Value) -> Result<Manifest> {
+        let directory = tempfile::tempdir().unwrap();
+        fs::write(directory.path().join(MANIFEST), value.to_string()).unwrap();
+        Manifest::read(directory.path())
+    }
+
+    #[test]
+    fn a_manifest_survives_being_written() {
+        let manifest = manifest();
+        assert_eq!(read(&serde_json::to_value(&manifest).unwrap()).unwrap(), manifest);
+    }
+
+    #[test]
+    fn what_earlier_versions_left_out_is_not_missed() {
+        let mut value = serde_json::to_value(manifest()).unwrap();
+        for field in ["fingerprint", "assigned_by", "frame_count", "capacities", "growth", "duration_s"] {
+            value.as_object_mut().unwrap().remove(field).unwrap();
+        }
+        for field in ["assign", "test", "culling", "multiview", "trace"] {
+            value["config"].as_object_mut().unwrap().remove(field).unwrap();
+        }
+        let read = read(&value).unwrap();
+        assert_eq!((read.frame_count, read.config), (None, Config::default()));
+    }
+
+    #[test]
+    fn a_field_that_no_run_has_is_named() {
+        let mut value = serde_json::to_value(manifest()).unwrap();
+        value["config"]["msaa"] = 3.into();
+        let message = read(&value).unwrap_err().to_string();
+        assert!(message.contains("run.json: is no manifest of a run: config.msaa: 3 samples"), "{message}");
+        value["format"] = "manylight.run/2".into();
+        let message = read(&value).unwrap_err().to_string();
+        assert!(
+            message.contains("has format manylight.run/2, this version reads manylight.run/1"),
+            "{message}"
+        );
     }
 
     #[test]

@@ -21,6 +21,7 @@ mod color;
 mod image_exr;
 mod manifest;
 mod preview;
+mod rows;
 mod run;
 mod saved;
 mod stages;
@@ -41,14 +42,19 @@ pub use check::check_run;
 pub use color::{cluster_color, cubehelix, tone_map};
 pub(crate) use color::{srgb_decode, srgb_encode};
 pub use image_exr::write_exr;
-pub use manifest::{DeviceInfo, Manifest, RUN_FORMAT, Source, git_revision, rfc3339_utc};
+pub use manifest::{DeviceInfo, MANIFEST, Manifest, RUN_FORMAT, Source, git_revision, rfc3339_utc};
 pub use preview::write_png;
 pub use preview::{cluster_preview, image_preview, light_preview, write_previews};
+pub use rows::FrameRow;
+pub(crate) use rows::{
+    ClusteringRow, FRAGMENTS_PER_CLUSTER, HistogramRow, LIGHTS_PER_CLUSTER, Row, TimingRow,
+};
 pub use run::{PlannedRun, RunWriter, planned_runs, write_summary};
-pub use saved::{Age, Older, age, find_runs, is_complete, newest_of_each, saved_fingerprint, saved_means};
-pub(crate) use stages::kind as stage_kind;
-pub use stages::{GpuTimes, StageMinima};
+pub use saved::{
+    Age, Older, age, find_runs, is_complete, newest_of_each, saved_fingerprint, saved_frames, saved_means,
+};
+pub use stages::StageMinima;
+pub(crate) use stages::{kind as stage_kind, makes_lists};
 pub(crate) use strict::each_row;
-pub use summary::{MethodRun, Ratios, RunMeans, Summary, SummaryRow, Values};
+pub use summary::{RunMeans, Summary, SummaryRow, Values};
 pub(crate) use summary::{TABLE_LINES, grouped};
-pub(crate) use tables::{CLUSTERINGS, FRAMES, HISTOGRAMS, TIMINGS};

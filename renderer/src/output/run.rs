@@ -2,13 +2,14 @@
 
 use super::atomic::{StagedDirectory, write_whole};
 use super::image_exr::write_exr;
-use super::manifest::Manifest;
+use super::manifest::{MANIFEST, Manifest};
 use super::preview::{write_png, write_previews};
+use super::rows::Row;
 use super::stages::StageMinima;
 use super::summary::Summary;
 use super::tables;
 use super::trace;
-use crate::config::{Assign, Case, Config, Lighting, LightsFrom, Test};
+use crate::config::{Assign, Config, Labels, LightsFrom, Test, run_name};
 use crate::measure::{FrameCounts, FrameTimes, FrameTrace, ViewPixels};
 use crate::methods::MethodSpec;
 use crate::{Error, Result};
@@ -16,9 +17,6 @@ use image::RgbImage;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
-
-/// By this file a run directory is known.
-pub(super) const MANIFEST: &str = "run.json";
 
 /// One run: a method under one lighting, by one way of assignment with one test.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,62 +29,36 @@ pub struct PlannedRun {
     pub assign: Assign,
     /// What decides who is on them: named, but for methods without clusters.
     pub test: Test,
-    /// Name of the lighting, for tables: its count, with its other fields where counts are equal.
-    pub lighting: String,
-    /// Name of the run directory: the method, and behind it the lighting, the way of assignment and the test, each
-    /// where there are several.
+    /// The configuration that asks for it and no other.
+    pub config: Config,
+    /// What it is called in tables.
+    pub labels: Labels,
+    /// Name of the run directory: see [`run_name`].
     pub name: String,
 }
 
 impl PlannedRun {
-    /// Where it stands in the product of the axes.
-    pub fn case(&self) -> Case {
-        Case { lights: self.lights.clone(), method: self.method, assign: self.assign, test: self.test }
-    }
-
     /// Refuses a test that cannot serve the method.
     ///
     /// # Errors
     /// Names both.
     pub fn check(&self) -> Result<()> {
-        self.case().check().map_err(Error::Input)
+        self.config.check_case().map_err(Error::Input)
     }
 }
 
-/// The runs a configuration asks for, in the order of [`Config::cases`].
+/// The runs a configuration asks for of its one scene, in the order of [`Config::cases`].
 pub fn planned_runs(config: &Config) -> Vec<PlannedRun> {
-    let sources = config.lights_from();
-    let planned = |case: Case| {
-        let lighting = lighting_name(&case.lights, &sources);
-        let name = run_name(config, &case, (sources.len() > 1).then_some(&lighting));
-        let Case { lights, method, assign, test } = case;
-        PlannedRun { method, lights, assign, test, lighting, name }
+    let planned = |run: Config| PlannedRun {
+        method: run.methods[0],
+        lights: run.lights_of_run(),
+        assign: run.assign[0],
+        test: run.test[0],
+        labels: Labels::new(&run, config),
+        name: run_name(&run, config),
+        config: run,
     };
     config.cases().into_iter().map(planned).collect()
-}
-
-fn run_name(config: &Config, case: &Case, lighting: Option<&String>) -> String {
-    let clustered = case.method != MethodSpec::AllLights;
-    let assign = (clustered && config.assign.len() > 1).then(|| case.assign.to_string());
-    let test = (clustered && config.test.len() > 1).then(|| case.test.to_string());
-    let parts = [Some(case.method.to_string()), lighting.cloned(), assign, test];
-    parts.into_iter().flatten().collect::<Vec<_>>().join("_")
-}
-
-/// What tells a lighting from the others.
-fn lighting_name(lights: &LightsFrom, all: &[LightsFrom]) -> String {
-    let count = |lights: &LightsFrom| match lights {
-        LightsFrom::Rain(lighting) => Some(lighting.count),
-        LightsFrom::File(_) | LightsFrom::Scene => None,
-    };
-    match lights {
-        LightsFrom::Rain(Lighting { count: n, intensity, cutoff, r0 })
-            if all.iter().filter(|other| count(other) == Some(*n)).count() > 1 =>
-        {
-            format!("{n}-{intensity}-{cutoff}-{r0}")
-        }
-        _ => lights.to_string(),
-    }
 }
 
 /// Writes `OUT/summary.csv`.
@@ -148,14 +120,18 @@ impl RunWriter {
     /// A file cannot be written; nothing is left of the new directory then.
     pub fn finish(self, manifest: &Manifest, counts: &[FrameCounts], times: &[FrameTimes]) -> Result<()> {
         let minima = StageMinima::from_times(times);
-        self.write("frames.csv", |file| tables::write_frames(file, counts, &minima))?;
-        self.write("timings.csv", |file| tables::write_timings(file, times))?;
-        self.write("clusterings.csv", |file| tables::write_clusterings(file, counts))?;
-        self.write("histograms.csv", |file| tables::write_histograms(file, counts))?;
+        self.write_table(tables::frames(counts, &minima))?;
+        self.write_table(tables::timings(times))?;
+        self.write_table(tables::clusterings(counts))?;
+        self.write_table(tables::histograms(counts))?;
         let manifest = serde_json::to_string_pretty(manifest)
             .map_err(|error| Error::Internal(format!("the manifest is not JSON: {error}")))?;
         self.write(MANIFEST, |file| writeln!(file, "{manifest}"))?;
         self.staged.commit()
+    }
+
+    fn write_table<R: Row>(&self, rows: impl Iterator<Item = R>) -> Result<()> {
+        self.write(R::FILE, |file| tables::write(file, rows))
     }
 
     fn write(&self, name: &str, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<()> {

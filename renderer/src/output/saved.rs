@@ -1,22 +1,16 @@
 //! Runs that are on disk: whether they are whole, what made them, their means.
 
 use super::check::check_run;
-use super::run::MANIFEST;
+use super::manifest::{MANIFEST, Manifest};
+use super::rows::FrameRow;
 use super::strict::each_row;
-use super::summary::{Values, mean};
-use super::tables::FRAMES;
+use super::summary::Values;
 use crate::{Error, Result};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 use std::{fmt, fs, io};
-
-/// What is asked of a run on disk.
-#[derive(Deserialize)]
-struct SavedManifest {
-    fingerprint: String,
-}
 
 /// The directories of all runs in or below `directory`, by name. Hidden ones are unfinished, and what stands in a
 /// run's own is not searched.
@@ -104,8 +98,20 @@ pub fn newest_of_each<K: Ord>(runs: &[(K, Age)]) -> Vec<usize> {
 
 /// The fingerprint of the run in `directory`; `None` where there is none, or one by another version of the format.
 pub fn saved_fingerprint(directory: &Path) -> Option<String> {
-    let text = fs::read_to_string(directory.join(MANIFEST)).ok()?;
-    serde_json::from_str::<SavedManifest>(&text).ok().map(|manifest| manifest.fingerprint)
+    Manifest::read(directory).ok().map(|manifest| manifest.fingerprint)
+}
+
+/// The rows of `frames.csv` of the run in `directory`.
+///
+/// # Errors
+/// The table is damaged.
+pub fn saved_frames(directory: &Path) -> Result<Vec<FrameRow>> {
+    let mut rows = vec![];
+    each_row(directory, |_, row| {
+        rows.push(row);
+        Ok(())
+    })?;
+    Ok(rows)
 }
 
 /// How many frames the run in `directory` has, and its means over them.
@@ -114,25 +120,8 @@ pub fn saved_fingerprint(directory: &Path) -> Option<String> {
 /// The run is not whole: see [`check_run`].
 pub fn saved_means(directory: &Path) -> Result<(usize, Values)> {
     check_run(directory)?;
-    let (mut counts, mut times): (Vec<[f64; 3]>, Vec<[Option<f64>; 3]>) = Default::default();
-    each_row(&directory.join("frames.csv"), &FRAMES, |row| {
-        let count = |column| row.whole::<u64>(column).map(|count| count as f64);
-        counts.push([count("visible_clusters")?, count("light_indices")?, count("lighting_computations")?]);
-        let time = |column| row.optional(column);
-        times.push([time("gpu_ms_cluster")?, time("gpu_ms_shade")?, time("gpu_ms_frame")?]);
-        Ok(())
-    })?;
-    let count = |place: usize| mean(counts.iter().map(|row| Some(row[place]))).unwrap_or(0.0);
-    let time = |place: usize| mean(times.iter().map(|row| row[place]));
-    let values = Values {
-        visible_clusters: count(0),
-        light_indices: count(1),
-        lighting_computations: count(2),
-        clustering_ms: time(0),
-        shading_ms: time(1),
-        total_ms: time(2),
-    };
-    Ok((counts.len(), values))
+    let rows = saved_frames(directory)?;
+    Ok((rows.len(), Values::mean(&rows)))
 }
 
 #[cfg(test)]

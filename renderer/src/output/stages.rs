@@ -9,21 +9,27 @@ pub struct StageMinima {
     frames: BTreeMap<u32, BTreeMap<String, f64>>,
 }
 
-/// GPU times of one frame as `frames.csv` has them, milliseconds; `None` where nothing was timed.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct GpuTimes {
-    /// The whole frame.
-    pub frame: Option<f64>,
-    /// Everything that clusters, over all clusterings.
-    pub cluster: Option<f64>,
-    /// Depth pass and marking of visible clusters (Gelderen figure 6.8), over clusterings and views.
-    pub visibility: Option<f64>,
-    /// Counting of the lights of each cluster, over clusterings.
-    pub count_lights: Option<f64>,
-    /// Writing of the light lists, over clusterings.
-    pub assign_lights: Option<f64>,
-    /// Shading, over views.
-    pub shade: Option<f64>,
+/// The stage of everything.
+pub const FRAME: &str = "frame";
+
+/// What it takes to know the lengths of the light lists, from lights as the frame has them.
+pub const COUNTING: [&str; 4] = [
+    "frame/cluster/transform_lights",
+    "frame/cluster/cull_lights",
+    "frame/cluster/build_hierarchy",
+    "frame/cluster/count_lights",
+];
+
+/// Where each list begins.
+const OFFSETS: &str = "frame/cluster/light_offsets";
+
+/// Writing of the light lists.
+pub const ASSIGNING: [&str; 1] = ["frame/cluster/assign_lights"];
+
+/// Whether the stage with this path lies between lights and light lists: counting, offsets, writing.
+pub fn makes_lists(path: &str) -> bool {
+    let kind = kind(path);
+    COUNTING.iter().chain(&ASSIGNING).chain([&OFFSETS]).any(|stage| *stage == kind)
 }
 
 impl StageMinima {
@@ -40,29 +46,16 @@ impl StageMinima {
         Self { frames }
     }
 
-    /// The times of one frame. A kind of stage that did not occur took no time, unless the frame alone was timed.
-    pub fn frame(&self, frame: u32) -> GpuTimes {
-        let Some(minima) = self.frames.get(&frame) else { return GpuTimes::default() };
-        let detailed = minima.keys().any(|path| path != "frame");
-        let sum = |kinds: &[&str]| {
-            let stages = minima.iter().filter(|(path, _)| kinds.contains(&kind(path).as_str()));
-            // A fold, for the sum of nothing is -0.
-            detailed.then(|| stages.fold(0.0, |sum, (_, ms)| sum + ms))
-        };
-        GpuTimes {
-            frame: minima.get("frame").copied(),
-            cluster: sum(&["frame/cluster"]),
-            visibility: sum(&["frame/cluster/depth", "frame/cluster/mark"]),
-            count_lights: sum(&COUNTING),
-            assign_lights: sum(&["frame/cluster/assign_lights"]),
-            shade: sum(&["frame/shade"]),
-        }
+    /// The time of the stages of these kinds in a frame, milliseconds. Stages that did not occur took no time, unless
+    /// the frame alone was timed.
+    pub fn sum(&self, frame: u32, kinds: &[&str]) -> Option<f64> {
+        let minima = self.frames.get(&frame)?;
+        let is_timed = kinds.contains(&FRAME) || minima.keys().any(|path| path != FRAME);
+        let stages = minima.iter().filter(|(path, _)| kinds.contains(&kind(path).as_str()));
+        // A fold, for the sum of nothing is -0.
+        is_timed.then(|| stages.fold(0.0, |sum, (_, ms)| sum + ms))
     }
 }
-
-/// What it takes to know the lengths of the lists.
-const COUNTING: [&str; 3] =
-    ["frame/cluster/cull_lights", "frame/cluster/build_hierarchy", "frame/cluster/count_lights"];
 
 /// A stage's path without the numbers of views and clusterings.
 pub(crate) fn kind(path: &str) -> String {
@@ -82,7 +75,14 @@ pub(crate) fn kind(path: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::StageTime;
+    use crate::measure::{FrameCounts, StageTime};
+    use crate::output::rows::FrameRow;
+
+    /// The times of frame 7 by column, without `gpu_ms_`.
+    fn columns(minima: &StageMinima) -> Vec<(&'static str, Option<f64>)> {
+        let row = FrameRow::new(&FrameCounts { frame: 7, ..FrameCounts::default() }, minima);
+        row.times().map(|(column, ms)| (column.strip_prefix("gpu_ms_").unwrap(), ms)).collect()
+    }
 
     fn times(run: u32, stages: &[(&str, f64)]) -> FrameTimes {
         let stages =
@@ -128,16 +128,35 @@ mod tests {
                 ],
             ),
         ]);
-        let expected = GpuTimes {
-            frame: Some(20.0),
-            cluster: Some(6.0 + 7.0),
-            visibility: Some(0.5 + 2.0 + 4.0),
-            count_lights: Some(0.25 + 0.125 + 1.0 + 2.0),
-            assign_lights: Some(2.0),
-            shade: Some(5.0 + 1.0),
+        let expected = [
+            ("frame", Some(20.0)),
+            ("cluster", Some(6.0 + 7.0)),
+            ("visibility", Some(0.5 + 2.0 + 4.0)),
+            ("count_lights", Some(0.25 + 0.125 + 1.0 + 2.0)),
+            ("assign_lights", Some(2.0)),
+            ("shade", Some(5.0 + 1.0)),
+        ];
+        assert_eq!(columns(&minima), expected);
+        assert!(columns(&StageMinima::default()).iter().all(|(_, ms)| ms.is_none()));
+    }
+
+    #[test]
+    fn counting_takes_lights_into_clusters_space_by_every_way() {
+        let counting = |stages: &[&str]| {
+            let timed: Vec<(String, f64)> =
+                stages.iter().map(|stage| (format!("frame/cluster[0]/{stage}"), 1.0)).collect();
+            let timed: Vec<(&str, f64)> = timed.iter().map(|(stage, ms)| (stage.as_str(), *ms)).collect();
+            columns(&StageMinima::from_times(&[times(0, &timed)]))[3]
         };
-        assert_eq!(minima.frame(7), expected);
-        assert_eq!(minima.frame(8), GpuTimes::default());
+        let brute = ["compact", "transform_lights", "count_lights", "light_offsets", "assign_lights"];
+        assert_eq!(counting(&brute), ("count_lights", Some(2.0)));
+        let scatter = ["compact", "cull_lights", "count_lights", "light_offsets", "assign_lights"];
+        assert_eq!(counting(&scatter), ("count_lights", Some(2.0)));
+        assert_eq!(
+            brute.map(|stage| makes_lists(&format!("frame/cluster[1]/{stage}"))),
+            [false, true, true, true, true]
+        );
+        assert!(!makes_lists("frame/cluster[0]") && !makes_lists("frame/lights"));
     }
 
     #[test]
@@ -154,16 +173,19 @@ mod tests {
                 ("frame/shade", 5.0),
             ],
         )]);
-        let of_frame = at_once.frame(7);
-        assert_eq!(of_frame.visibility, Some(1.0 + 2.0 + 0.5));
-        assert_eq!((of_frame.cluster, of_frame.shade), (Some(6.0 + 3.0), Some(5.0)));
+        let expected = [("cluster", Some(6.0 + 3.0)), ("visibility", Some(1.0 + 2.0 + 0.5))];
+        assert_eq!(columns(&at_once)[1..3], expected);
+        assert_eq!(columns(&at_once)[5], ("shade", Some(5.0)));
     }
 
     #[test]
     fn what_was_not_timed_is_not_zero() {
-        let frame_alone = StageMinima::from_times(&[times(0, &[("frame", 2.0)])]);
-        assert_eq!(frame_alone.frame(7), GpuTimes { frame: Some(2.0), ..GpuTimes::default() });
-        let all_lights = StageMinima::from_times(&[times(0, &[("frame", 2.0), ("frame/shade[0]", 1.0)])]);
-        assert_eq!(all_lights.frame(7).cluster, Some(0.0));
+        let frame_alone = columns(&StageMinima::from_times(&[times(0, &[("frame", 2.0)])]));
+        assert_eq!(frame_alone[0], ("frame", Some(2.0)));
+        assert!(frame_alone[1..].iter().all(|(_, ms)| ms.is_none()));
+        let stages =
+            [("frame", 2.0), ("frame/depth[0]", 0.25), ("frame/depth[1]", 0.5), ("frame/shade[0]", 1.0)];
+        let all_lights = columns(&StageMinima::from_times(&[times(0, &stages)]));
+        assert_eq!(all_lights[1..3], [("cluster", Some(0.0)), ("visibility", Some(0.75))]);
     }
 }

@@ -1,58 +1,61 @@
 //! Tables as this program writes them, read back without forgiveness: a cell that is not what was written is a fault of
 //! its line.
 
+use super::rows::Row;
 use crate::{Error, Result};
-use csv::{ErrorKind, ReaderBuilder, StringRecord};
+use csv::{DeserializeErrorKind, ErrorKind, ReaderBuilder, StringRecord};
 use std::fmt::Display;
 use std::fs;
 use std::io;
 use std::path::Path;
-use std::str::FromStr;
 
 /// What to do about a damaged table.
 const ADVICE: &str = "measure it again";
 
-/// One line of a table.
-pub struct Row<'a> {
+/// A line of a table, to say what is wrong with it.
+pub struct Line<'a> {
     path: &'a Path,
-    columns: &'a [&'static str],
-    /// Where each column stands in the file.
-    places: &'a [usize],
-    record: &'a StringRecord,
+    number: u64,
 }
 
-/// Gives every row of the table at `path`, which has `columns` in any order and no others.
+/// Gives every row of a table of the run in `directory`, which has the row's columns in any order and no others.
 ///
 /// # Errors
 /// The file is missing, cut off or no such table; or `take` refuses a row.
-pub fn each_row(
-    path: &Path,
-    columns: &[&'static str],
-    mut take: impl FnMut(&Row<'_>) -> Result<()>,
-) -> Result<()> {
-    let bytes = fs::read(path).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => Error::file(path, format!("is missing beside its run.json: {ADVICE}")),
-        _ => Error::file(path, format!("cannot be read: {error}")),
-    })?;
-    if bytes.last() != Some(&b'\n') {
-        let lines = bytes.iter().filter(|byte| **byte == b'\n').count();
-        let problem =
-            if bytes.is_empty() { "is empty".into() } else { format!("ends within line {}", lines + 1) };
-        return Err(Error::file(path, format!("{problem}: {ADVICE}")));
-    }
+pub fn each_row<R: Row>(directory: &Path, mut take: impl FnMut(&Line<'_>, R) -> Result<()>) -> Result<()> {
+    let path = &directory.join(R::FILE);
+    let bytes = read_whole(path)?;
     let broken = |error: csv::Error| broken(path, &error);
     // No cell of these tables is quoted: a stray quote must not swallow the lines behind it.
     let mut reader = ReaderBuilder::new().quoting(false).from_reader(bytes.as_slice());
-    let places = places(path, columns, reader.headers().map_err(broken)?)?;
+    let header = reader.headers().map_err(broken)?.clone();
+    check_header(path, R::COLUMNS, &header)?;
     let mut record = StringRecord::new();
     while reader.read_record(&mut record).map_err(broken)? {
-        take(&Row { path, columns, places: &places, record: &record })?;
+        let line = Line { path, number: record.position().map_or(0, csv::Position::line) };
+        let row = row(&header, &record).map_err(|problem| line.refuse(problem))?;
+        take(&line, row)?;
     }
     Ok(())
 }
 
-fn places(path: &Path, columns: &[&'static str], header: &StringRecord) -> Result<Vec<usize>> {
-    let refuse = |problem: String| Err(Error::file(path, format!("line 1: {problem}: {ADVICE}")));
+/// The bytes of a table, the last of which ends a line.
+fn read_whole(path: &Path) -> Result<Vec<u8>> {
+    let bytes = fs::read(path).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => Error::file(path, format!("is missing beside its run.json: {ADVICE}")),
+        _ => Error::file(path, format!("cannot be read: {error}")),
+    })?;
+    if bytes.last() == Some(&b'\n') {
+        return Ok(bytes);
+    }
+    let lines = bytes.iter().filter(|byte| **byte == b'\n').count();
+    let problem =
+        if bytes.is_empty() { "is empty".into() } else { format!("ends within line {}", lines + 1) };
+    Err(refuse(path, problem))
+}
+
+fn check_header(path: &Path, columns: &[&str], header: &StringRecord) -> Result<()> {
+    let refuse = |problem: String| Err(Line { path, number: 1 }.refuse(problem));
     for (place, name) in header.iter().enumerate() {
         if !columns.contains(&name) {
             return refuse(format!("a column `{}` is not known", shown(name)));
@@ -61,53 +64,52 @@ fn places(path: &Path, columns: &[&'static str], header: &StringRecord) -> Resul
             return refuse(format!("two columns are called `{name}`"));
         }
     }
-    let place = |column: &&'static str| header.iter().position(|name| name == *column);
-    match columns.iter().find(|column| place(column).is_none()) {
+    match columns.iter().find(|column| !header.iter().any(|name| name == **column)) {
         Some(missing) => refuse(format!("column `{missing}` is missing")),
-        None => Ok(columns.iter().filter_map(place).collect()),
+        None => Ok(()),
+    }
+}
+
+/// The row of a record, or what is wrong with a cell of it.
+fn row<R: Row>(header: &StringRecord, record: &StringRecord) -> Result<R, String> {
+    let is_no = |place: usize, what: &str| {
+        let [column, cell] = [header, record].map(|cells| cells.get(place).unwrap_or_default());
+        format!("{column} `{}` is no {what}", shown(cell))
+    };
+    const WHOLE: &str = "whole number";
+    const QUANTITY: &str = "finite number from 0 on";
+    // The reader would take hexadecimal numbers, which are never written.
+    if let Some(place) = record.iter().position(|cell| cell.starts_with("0x")) {
+        return Err(is_no(place, WHOLE));
+    }
+    let row: R = record.deserialize(Some(header)).map_err(|error| match error.kind() {
+        ErrorKind::Deserialize { err, .. } => match (err.field(), err.kind()) {
+            (Some(field), DeserializeErrorKind::ParseInt(_)) => is_no(field as usize, WHOLE),
+            (Some(field), DeserializeErrorKind::ParseFloat(_)) => is_no(field as usize, QUANTITY),
+            (_, kind) => kind.to_string(),
+        },
+        _ => error.to_string(),
+    })?;
+    match row.unsound() {
+        Some(column) => Err(is_no(header.iter().position(|name| name == column).unwrap_or(0), QUANTITY)),
+        None => Ok(row),
     }
 }
 
 fn broken(path: &Path, error: &csv::Error) -> Error {
-    let line = error.position().map_or(1, csv::Position::line);
     let problem = match error.kind() {
         ErrorKind::UnequalLengths { expected_len, len, .. } => {
             format!("{len} cells under a header of {expected_len}")
         }
         _ => "is no text".to_owned(),
     };
-    Error::file(path, format!("line {line}: {problem}: {ADVICE}"))
+    Line { path, number: error.position().map_or(1, csv::Position::line) }.refuse(problem)
 }
 
-impl Row<'_> {
-    /// The cell of a column, as it stands.
-    pub fn text(&self, column: &str) -> &str {
-        let index = self.columns.iter().position(|name| *name == column);
-        index.and_then(|index| self.record.get(self.places[index])).unwrap_or_default()
-    }
-
-    /// The whole number of a column.
-    pub fn whole<T: FromStr>(&self, column: &str) -> Result<T> {
-        let text = self.text(column);
-        text.parse().map_err(|_| self.refuse(format!("{column} `{}` is no whole number", shown(text))))
-    }
-
-    /// A quantity that is finite and not negative.
-    pub fn quantity(&self, column: &str) -> Result<f64> {
-        let text = self.text(column);
-        let value = text.parse::<f64>().ok().filter(|value| value.is_finite() && *value >= 0.0);
-        value.ok_or_else(|| self.refuse(format!("{column} `{}` is no finite number from 0 on", shown(text))))
-    }
-
-    /// A time; `None` where the cell is empty, for nothing was timed.
-    pub fn optional(&self, column: &str) -> Result<Option<f64>> {
-        if self.text(column).is_empty() { Ok(None) } else { self.quantity(column).map(Some) }
-    }
-
+impl Line<'_> {
     /// An error about this line.
     pub fn refuse(&self, problem: impl Display) -> Error {
-        let line = self.record.position().map_or(0, csv::Position::line);
-        Error::file(self.path, format!("line {line}: {problem}: {ADVICE}"))
+        refuse(self.path, format!("line {}: {problem}", self.number))
     }
 }
 
@@ -117,7 +119,7 @@ pub fn shown(text: &str) -> String {
     text.chars().take(MOST).flat_map(char::escape_debug).collect()
 }
 
-/// An error about a table as a whole.
+/// An error about a file as a whole.
 pub fn refuse(path: &Path, problem: impl Display) -> Error {
     Error::file(path, format!("{problem}: {ADVICE}"))
 }

@@ -1,75 +1,113 @@
 //! The closing table: one row a method and lighting, with ratios to Indi Persp.
 
-use super::stages::StageMinima;
-use super::tables::optional_ms;
-use crate::measure::{FrameCounts, FrameTimes};
+use super::rows::FrameRow;
+use crate::config::{Axis, Labels, Role};
 use crate::methods::{MethodSpec, Sharing, Space};
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
 use std::fmt;
 use std::io::{self, Write};
 
-/// What one run measured.
-#[derive(Debug, Clone, Copy)]
-pub struct MethodRun<'a> {
-    /// How lights were found.
-    pub method: MethodSpec,
-    /// Name of the lighting: see [`super::PlannedRun::lighting`].
-    pub lighting: &'a str,
-    /// The atemporal run's frames.
-    pub counts: &'a [FrameCounts],
-    /// The temporal runs' frames; empty where there were none.
-    pub times: &'a [FrameTimes],
+/// A column of numbers of the closing table: a mean over frames, and its ratio to the reference method's.
+struct Column {
+    /// Its name in CSV and JSON.
+    name: &'static str,
+    /// Its heading, on two lines.
+    heading: &'static str,
+    /// What it is of a frame; `None` where that was not measured.
+    of: fn(&FrameRow) -> Option<f64>,
+    kind: Kind,
 }
 
-/// Means over the frames of one run. Milliseconds are GPU time, of each stage the minimum over the temporal runs;
-/// `None` where there were none.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
-pub struct Values {
-    /// Visible clusters, summed over clusterings.
-    pub visible_clusters: f64,
-    /// Light indices, summed over clusterings.
-    pub light_indices: f64,
-    /// Lighting computations.
-    pub lighting_computations: f64,
-    /// Clustering.
-    pub clustering_ms: Option<f64>,
-    /// Shading.
-    pub shading_ms: Option<f64>,
-    /// The whole frame.
-    pub total_ms: Option<f64>,
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Count,
+    Milliseconds,
 }
 
-/// [`Values`] over those of the reference method; `None` where either is missing or the reference is 0.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
-pub struct Ratios {
-    /// Of visible clusters.
-    pub visible_clusters: Option<f64>,
-    /// Of light indices.
-    pub light_indices: Option<f64>,
-    /// Of lighting computations.
-    pub lighting_computations: Option<f64>,
-    /// Of clustering time.
-    pub clustering_ms: Option<f64>,
-    /// Of shading time.
-    pub shading_ms: Option<f64>,
-    /// Of total time.
-    pub total_ms: Option<f64>,
+const COLUMNS: [Column; 6] = [
+    Column {
+        name: "visible_clusters",
+        heading: "visible\nclusters",
+        of: |row| Some(row.visible_clusters as f64),
+        kind: Kind::Count,
+    },
+    Column {
+        name: "light_indices",
+        heading: "light\nindices",
+        of: |row| Some(row.light_indices as f64),
+        kind: Kind::Count,
+    },
+    Column {
+        name: "lighting_computations",
+        heading: "lighting\ncomputations",
+        of: |row| Some(row.lighting_computations as f64),
+        kind: Kind::Count,
+    },
+    Column {
+        name: "clustering_ms",
+        heading: "clustering\nms",
+        of: |row| row.gpu_ms_cluster,
+        kind: Kind::Milliseconds,
+    },
+    Column {
+        name: "shading_ms",
+        heading: "shading\nms",
+        of: |row| row.gpu_ms_shade,
+        kind: Kind::Milliseconds,
+    },
+    Column { name: "total_ms", heading: "total\nms", of: |row| row.gpu_ms_frame, kind: Kind::Milliseconds },
+];
+
+/// A number for each column of the closing table: means over the frames of one run, or their ratios to those of the
+/// reference method. `None` where nothing was measured, or a ratio would be to nothing.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Values([Option<f64>; COLUMNS.len()]);
+
+impl Values {
+    /// Means over frames.
+    pub fn mean(rows: &[FrameRow]) -> Self {
+        Self(COLUMNS.map(|column| mean(rows.iter().filter_map(column.of))))
+    }
+
+    /// Its value in the column of a name.
+    pub fn get(&self, name: &str) -> Option<f64> {
+        COLUMNS.iter().zip(self.0).find(|(column, _)| column.name == name).and_then(|(_, value)| value)
+    }
+
+    /// The ratios to `reference`.
+    fn over(&self, reference: &Self) -> Self {
+        Self(std::array::from_fn(|place| match (self.0[place], reference.0[place]) {
+            (Some(value), Some(reference)) if reference != 0.0 => Some(value / reference),
+            _ => None,
+        }))
+    }
+}
+
+impl Serialize for Values {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(COLUMNS.len()))?;
+        for (column, value) in COLUMNS.iter().zip(self.0) {
+            map.serialize_entry(column.name, &value)?;
+        }
+        map.end()
+    }
+}
+
+/// The mean; `None` of nothing.
+fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let (sum, count) = values.fold((0.0, 0_u32), |(sum, count), value| (sum + value, count + 1));
+    (count > 0).then(|| sum / f64::from(count))
 }
 
 /// One run as the table takes it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunMeans {
-    /// The scene's directory, empty where there is one scene.
-    pub scene: String,
     /// How lights were found.
     pub method: MethodSpec,
-    /// Name of the lighting: see [`super::PlannedRun::lighting`].
-    pub lighting: String,
-    /// The way of assignment, empty where the sweep has one.
-    pub assign: String,
-    /// The test of light against cluster, empty where the sweep has one.
-    pub test: String,
+    /// What it is called.
+    pub labels: Labels,
     /// How many frames the means are over.
     pub frames: usize,
     /// The means.
@@ -79,19 +117,9 @@ pub struct RunMeans {
 /// One method under one lighting in one scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SummaryRow {
-    /// The scene's directory, empty where there is one scene.
-    #[serde(skip_serializing_if = "String::is_empty")]
-    pub scene: String,
-    /// The method's name.
-    pub method: String,
-    /// The lighting's name.
-    pub lighting: String,
-    /// The way of assignment, empty where the sweep has one.
-    #[serde(skip_serializing_if = "String::is_empty")]
-    pub assign: String,
-    /// The test of light against cluster, empty where the sweep has one.
-    #[serde(skip_serializing_if = "String::is_empty")]
-    pub test: String,
+    /// What it is called: a field an axis that tells runs apart.
+    #[serde(flatten, serialize_with = "label_fields")]
+    pub labels: Labels,
     /// How many frames the means are over.
     pub frames: usize,
     /// The means.
@@ -100,7 +128,7 @@ pub struct SummaryRow {
     /// The method that ratios are to.
     pub reference: String,
     /// The ratios.
-    pub ratios: Ratios,
+    pub ratios: Values,
 }
 
 /// The closing table of a replay.
@@ -111,52 +139,28 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Sums up runs of one scene.
-    pub fn from_runs(runs: &[MethodRun<'_>]) -> Self {
-        let means = runs.iter().map(|run| RunMeans {
-            scene: String::new(),
-            method: run.method,
-            lighting: run.lighting.to_owned(),
-            assign: String::new(),
-            test: String::new(),
-            frames: run.counts.len(),
-            means: Values::mean(run),
-        });
-        Self::from_means(&means.collect::<Vec<_>>())
-    }
-
     /// Sums up runs. The reference of a scene's lighting is its first Indi Persp, else its first method.
     pub fn from_means(runs: &[RunMeans]) -> Self {
         let rows = runs.iter().map(|run| {
             let reference = &runs[reference(runs, run)];
             SummaryRow {
-                scene: run.scene.clone(),
-                method: run.method.to_string(),
-                lighting: run.lighting.clone(),
-                assign: run.assign.clone(),
-                test: run.test.clone(),
+                labels: run.labels.clone(),
                 frames: run.frames,
                 means: run.means,
                 reference: reference.method.to_string(),
-                ratios: Ratios::of(&run.means, &reference.means),
+                ratios: run.means.over(&reference.means),
             }
         });
         Self { rows: rows.collect() }
     }
 
-    /// The columns that name rows: those of axes that tell rows apart, and the method and its lighting always.
-    fn naming_columns(&self) -> Vec<NamingColumn> {
-        let all: [NamingColumn; 5] = [
-            ("scene", |row| &row.scene),
-            ("method", |row| &row.method),
-            ("lighting", |row| &row.lighting),
-            ("assign", |row| &row.assign),
-            ("test", |row| &row.test),
-        ];
-        let needed = |(name, cell): &NamingColumn| {
-            matches!(*name, "method" | "lighting") || self.rows.iter().any(|row| !cell(row).is_empty())
+    /// The axes that name rows: those that tell rows apart, and the method and its lighting always.
+    fn naming_axes(&self) -> Vec<&'static Axis> {
+        let needed = |axis: &&Axis| {
+            matches!(axis.role, Role::Method | Role::Lighting)
+                || self.rows.iter().any(|row| !row.labels.get(axis).is_empty())
         };
-        all.into_iter().filter(needed).collect()
+        Axis::told().filter(needed).collect()
     }
 
     /// Writes the table as CSV: what names a row, means, then the reference, then ratios.
@@ -165,51 +169,34 @@ impl Summary {
     /// The writer fails.
     pub fn write_csv(&self, out: impl Write) -> io::Result<()> {
         let mut csv = csv::Writer::from_writer(out);
-        let naming = self.naming_columns();
-        csv.write_record(naming.iter().map(|(name, _)| *name).chain(CSV_HEADER))?;
+        let naming = self.naming_axes();
+        let header = naming.iter().map(|axis| axis.column.to_owned()).chain(["frames".to_owned()]);
+        let means = COLUMNS.map(|column| column.name.to_owned());
+        let ratios = COLUMNS.map(|column| format!("{}_ratio", column.name));
+        csv.write_record(header.chain(means).chain(["reference".to_owned()]).chain(ratios))?;
         for row in &self.rows {
-            let (means, ratios) = (&row.means, &row.ratios);
-            let counts = [means.visible_clusters, means.light_indices, means.lighting_computations];
-            let times = [means.clustering_ms, means.shading_ms, means.total_ms];
-            let cells = naming
-                .iter()
-                .map(|(_, cell)| cell(row).clone())
-                .chain([row.frames.to_string()])
-                .chain(counts.map(|count| format!("{count:.3}")))
-                .chain(times.map(optional_ms))
-                .chain([row.reference.clone()])
-                .chain(ratios.list().map(optional_ms));
-            csv.write_record(cells.collect::<Vec<_>>())?;
+            let names =
+                naming.iter().map(|axis| row.labels.get(axis).to_owned()).chain([row.frames.to_string()]);
+            let means = COLUMNS.iter().zip(row.means.0).map(|(column, mean)| column.kind.cell(mean));
+            let ratios = row.ratios.0.map(|ratio| Kind::Milliseconds.cell(ratio));
+            csv.write_record(names.chain(means).chain([row.reference.clone()]).chain(ratios))?;
         }
         csv.flush()
     }
 }
 
-/// Its name in CSV, and its cell.
-type NamingColumn = (&'static str, fn(&SummaryRow) -> &String);
-
-const CSV_HEADER: [&str; 14] = [
-    "frames",
-    "visible_clusters",
-    "light_indices",
-    "lighting_computations",
-    "clustering_ms",
-    "shading_ms",
-    "total_ms",
-    "reference",
-    "visible_clusters_ratio",
-    "light_indices_ratio",
-    "lighting_computations_ratio",
-    "clustering_ms_ratio",
-    "shading_ms_ratio",
-    "total_ms_ratio",
-];
+/// A field for each label that is told.
+fn label_fields<S: Serializer>(labels: &Labels, serializer: S) -> Result<S::Ok, S::Error> {
+    let told = labels.iter().filter(|(_, label)| !label.is_empty());
+    serializer.collect_map(told.map(|(axis, label)| (axis.column, label)))
+}
 
 /// Index of the run that the ratios of `of` are to. Where there are several ways or tests, it is by the first.
 fn reference(runs: &[RunMeans], of: &RunMeans) -> usize {
-    let find = |wanted: &dyn Fn(&RunMeans) -> bool| {
-        runs.iter().position(|run| run.scene == of.scene && run.lighting == of.lighting && wanted(run))
+    let under = |run: &RunMeans| {
+        run.labels.of(&[Role::Scene, Role::Lighting]) == of.labels.of(&[Role::Scene, Role::Lighting])
     };
+    let find = |wanted: &dyn Fn(&RunMeans) -> bool| runs.iter().position(|run| under(run) && wanted(run));
     find(&|run| is_indi_persp(&run.method)).or_else(|| find(&|_| true)).unwrap_or(0)
 }
 
@@ -217,62 +204,27 @@ fn is_indi_persp(method: &MethodSpec) -> bool {
     matches!(method, MethodSpec::Clustered { sharing: Sharing::Indi, space: Space::Persp { .. } })
 }
 
-impl Values {
-    fn mean(run: &MethodRun<'_>) -> Self {
-        let minima = StageMinima::from_times(run.times);
-        let count =
-            |get: fn(&FrameCounts) -> u64| mean(run.counts.iter().map(|frame| Some(get(frame) as f64)));
-        let time = |get: fn(&super::GpuTimes) -> Option<f64>| {
-            mean(run.counts.iter().map(|frame| get(&minima.frame(frame.frame))))
+impl Kind {
+    /// A cell of the CSV.
+    fn cell(self, value: Option<f64>) -> String {
+        let digits = match self {
+            Self::Count => 3,
+            Self::Milliseconds => 6,
         };
-        Self {
-            visible_clusters: count(FrameCounts::visible_clusters).unwrap_or(0.0),
-            light_indices: count(FrameCounts::light_indices).unwrap_or(0.0),
-            lighting_computations: count(|frame| frame.lighting_computations).unwrap_or(0.0),
-            clustering_ms: time(|times| times.cluster),
-            shading_ms: time(|times| times.shade),
-            total_ms: time(|times| times.frame),
+        value.map(|value| format!("{value:.digits$}")).unwrap_or_default()
+    }
+
+    /// A number with its ratio, for people.
+    fn shown(self, value: Option<f64>, ratio: Option<f64>) -> String {
+        let Some(value) = value else { return "-".into() };
+        let value = match self {
+            Self::Count => grouped(value.round() as u64),
+            Self::Milliseconds => format!("{value:.3}"),
+        };
+        match ratio {
+            Some(ratio) => format!("{value} ({ratio:.2})"),
+            None => format!("{value}    -  "),
         }
-    }
-
-    fn list(&self) -> [Option<f64>; 6] {
-        let counts = [self.visible_clusters, self.light_indices, self.lighting_computations].map(Some);
-        [counts[0], counts[1], counts[2], self.clustering_ms, self.shading_ms, self.total_ms]
-    }
-}
-
-/// The mean of the values that are there.
-pub(super) fn mean(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
-    let (sum, count) = values.flatten().fold((0.0, 0_u32), |(sum, count), value| (sum + value, count + 1));
-    (count > 0).then(|| sum / f64::from(count))
-}
-
-impl Ratios {
-    fn of(values: &Values, reference: &Values) -> Self {
-        let mut ratios = values.list().into_iter().zip(reference.list()).map(|pair| match pair {
-            (Some(value), Some(reference)) if reference != 0.0 => Some(value / reference),
-            _ => None,
-        });
-        let mut next = || ratios.next().flatten();
-        Self {
-            visible_clusters: next(),
-            light_indices: next(),
-            lighting_computations: next(),
-            clustering_ms: next(),
-            shading_ms: next(),
-            total_ms: next(),
-        }
-    }
-
-    fn list(&self) -> [Option<f64>; 6] {
-        [
-            self.visible_clusters,
-            self.light_indices,
-            self.lighting_computations,
-            self.clustering_ms,
-            self.shading_ms,
-            self.total_ms,
-        ]
     }
 }
 
@@ -284,24 +236,16 @@ impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut table = Table::new();
         table.load_preset(TABLE_LINES).set_content_arrangement(ContentArrangement::Disabled);
-        let naming = self.naming_columns();
-        let header = [
-            "visible\nclusters",
-            "light\nindices",
-            "lighting\ncomputations",
-            "clustering\nms",
-            "shading\nms",
-            "total\nms",
-        ];
-        let names = naming.iter().map(|(name, _)| if *name == "lighting" { "lights" } else { *name });
-        table.set_header(names.chain(header));
+        let naming = self.naming_axes();
+        let names = naming.iter().map(|axis| axis.name);
+        table.set_header(names.chain(COLUMNS.map(|column| column.heading)));
         for row in &self.rows {
-            let values = row.means.list().into_iter().zip(row.ratios.list()).enumerate();
-            let cells = values.map(|(column, (value, ratio))| cell(value, ratio, column >= 3));
-            table.add_row(naming.iter().map(|(_, cell)| cell(row).clone()).chain(cells));
+            let values = COLUMNS.iter().zip(row.means.0.into_iter().zip(row.ratios.0));
+            let cells = values.map(|(column, (value, ratio))| column.kind.shown(value, ratio));
+            table.add_row(naming.iter().map(|axis| row.labels.get(axis).to_owned()).chain(cells));
         }
         for (column, index) in table.column_iter_mut().zip(0..) {
-            let is_name = naming.get(index).is_some_and(|(name, _)| *name != "lighting");
+            let is_name = naming.get(index).is_some_and(|axis| axis.role != Role::Lighting);
             column.set_cell_alignment(if is_name { CellAlignment::Left } else { CellAlignment::Right });
         }
         for line in table.lines() {
@@ -320,20 +264,13 @@ impl Summary {
                 names.push(&row.reference);
             }
         }
-        let several =
-            |cell: fn(&SummaryRow) -> &String| self.rows.iter().any(|row| cell(row) != cell(&self.rows[0]));
-        let lights = if several(|row| &row.lighting) { " under the same lights" } else { "" };
-        let ways = several(|row| &row.assign) || several(|row| &row.test);
+        let several = |role: Role| {
+            let labels = |row: &SummaryRow| row.labels.of(&[role]).join(" ");
+            self.rows.iter().any(|row| labels(row) != labels(&self.rows[0]))
+        };
+        let lights = if several(Role::Lighting) { " under the same lights" } else { "" };
+        let ways = several(Role::Way);
         names.join(" and ") + lights + if ways { ", by its first way and test" } else { "" }
-    }
-}
-
-fn cell(value: Option<f64>, ratio: Option<f64>, milliseconds: bool) -> String {
-    let Some(value) = value else { return "-".into() };
-    let value = if milliseconds { format!("{value:.3}") } else { grouped(value.round() as u64) };
-    match ratio {
-        Some(ratio) => format!("{value} ({ratio:.2})"),
-        None => format!("{value}    -  "),
     }
 }
 

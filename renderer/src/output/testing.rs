@@ -3,16 +3,17 @@
 use super::{DeviceInfo, Manifest, RUN_FORMAT, Source, git_revision};
 use crate::config::{Config, Lighting};
 use crate::measure::{
-    Capacities, ClusterRecord, ClusteringCounts, FrameCounts, FrameTimes, GrowthEvent, StageTime, ViewPixels,
+    Capacities, ClusterRecord, ClusteringCounts, DeviceCounts, FrameCounts, FrameTimes, GrowthEvent,
+    StageTime, ViewPixels,
 };
 use half::f16;
 
 /// A manifest of a run of one frame.
 pub(super) fn manifest() -> Manifest {
     Manifest {
-        format: RUN_FORMAT,
-        version: env!("CARGO_PKG_VERSION"),
-        git_revision: git_revision(),
+        format: RUN_FORMAT.into(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        git_revision: git_revision().into(),
         fingerprint: "0f".into(),
         method: "encl-ortho-4".into(),
         lighting: Some(Lighting::with_count(1000)),
@@ -21,7 +22,7 @@ pub(super) fn manifest() -> Manifest {
         scene: Source { name: "street".into(), sha256: "00".into() },
         recording: Source { name: "bistro-vive".into(), sha256: "11".into() },
         lights_file: None,
-        frame_count: 1,
+        frame_count: Some(1),
         device: DeviceInfo { name: "llvmpipe".into(), driver: "Mesa".into(), api: "1.3.230".into() },
         capacities: Capacities { visible_clusters: 1, light_indices: 2 },
         growth: vec![GrowthEvent {
@@ -82,10 +83,12 @@ pub(super) fn counts(frame: u32) -> FrameCounts {
                 ..ClusteringCounts::default()
             },
         ],
-        lighting_computations: 650,
-        needed_computations: 600,
-        fragments_shaded: 257,
-        fragments_without_cluster: 0,
+        counters: DeviceCounts {
+            lighting_computations: 650,
+            needed_computations: 600,
+            fragments_shaded: 257,
+            ..DeviceCounts::default()
+        },
         lights_per_fragment: vec![vec![(2, 200), (5, 50)], vec![(0, 7)]],
     }
 }

@@ -1,6 +1,6 @@
 use super::testing::{counts, manifest, times, view};
 use super::*;
-use crate::config::{Assign, Config, Lighting};
+use crate::config::{Assign, Axis, Config, Labels, Lighting};
 use crate::measure::{FrameCounts, FrameTimes};
 use std::collections::BTreeMap;
 use std::fs;
@@ -13,7 +13,8 @@ fn csv_text(write: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>) -> String {
 }
 
 fn frames(counts: &[FrameCounts], times: &[FrameTimes]) -> String {
-    csv_text(|out| tables::write_frames(out, counts, &StageMinima::from_times(times)))
+    let minima = StageMinima::from_times(times);
+    csv_text(|out| tables::write(out, tables::frames(counts, &minima)))
 }
 
 #[test]
@@ -35,7 +36,7 @@ fn frames_csv_leaves_times_empty_without_temporal_runs() {
 
 #[test]
 fn timings_csv_has_every_stage_of_every_run() {
-    let text = csv_text(|out| tables::write_timings(out, &[times(1, 40, 8.0)]));
+    let text = csv_text(|out| tables::write(out, tables::timings(&[times(1, 40, 8.0)])));
     let expected = "run,frame,stage,gpu_ms,cpu_ms\n\
         1,40,frame,8.000000,0.500000\n\
         1,40,frame/cluster[0],2.000000,0.500000\n\
@@ -46,7 +47,7 @@ fn timings_csv_has_every_stage_of_every_run() {
 
 #[test]
 fn clusterings_csv_has_grid_and_counters() {
-    let text = csv_text(|out| tables::write_clusterings(out, &[counts(40)]));
+    let text = csv_text(|out| tables::write(out, tables::clusterings(&[counts(40)])));
     let expected = "frame,clustering,dx,dy,dz,visible_clusters,light_indices,intersection_tests,lists_hash\n\
         40,0,10,12,24,3,9,3000,0000000000000abc\n\
         40,1,2,3,4,1,0,1000,ffffffffffffffff\n";
@@ -55,7 +56,7 @@ fn clusterings_csv_has_grid_and_counters() {
 
 #[test]
 fn histograms_csv_has_exact_ascending_bins() {
-    let text = csv_text(|out| tables::write_histograms(out, &[counts(40)]));
+    let text = csv_text(|out| tables::write(out, tables::histograms(&[counts(40)])));
     let expected = "frame,clustering,kind,bin,clusters,fragments\n\
         40,0,lights_per_cluster,2,2,200\n\
         40,0,lights_per_cluster,5,1,50\n\
@@ -73,23 +74,27 @@ fn histograms_csv_has_exact_ascending_bins() {
 fn histograms_of_all_lights_are_per_view_and_know_no_clusters() {
     let frame =
         FrameCounts { frame: 3, lights_per_fragment: vec![vec![(1000, 12)]], ..FrameCounts::default() };
-    let text = csv_text(|out| tables::write_histograms(out, &[frame]));
+    let text = csv_text(|out| tables::write(out, tables::histograms(&[frame])));
     assert!(text.ends_with("fragments\n3,0,lights_per_fragment,1000,0,12\n"), "{text}");
 }
 
-fn run<'a>(
-    method: &str,
-    lighting: &'a str,
-    counts: &'a [FrameCounts],
-    times: &'a [FrameTimes],
-) -> MethodRun<'a> {
-    MethodRun { method: method.parse().unwrap(), lighting, counts, times }
+fn run(method: &str, lighting: &str, counts: &[FrameCounts], times: &[FrameTimes]) -> RunMeans {
+    let minima = StageMinima::from_times(times);
+    let rows: Vec<FrameRow> = tables::frames(counts, &minima).collect();
+    let config = Config {
+        methods: vec![method.parse().unwrap()],
+        lights: vec![lighting.parse().unwrap()],
+        ..Config::default()
+    };
+    let labels = Labels::new(&config, &config);
+    RunMeans { method: config.methods[0], labels, frames: rows.len(), means: Values::mean(&rows) }
 }
 
 /// Counts with twice the lighting computations.
 fn doubled(frame: u32) -> FrameCounts {
-    let counts = counts(frame);
-    FrameCounts { lighting_computations: counts.lighting_computations * 2, ..counts }
+    let mut counts = counts(frame);
+    counts.counters.lighting_computations *= 2;
+    counts
 }
 
 #[test]
@@ -97,7 +102,7 @@ fn summary_ratios_are_to_indi_persp_of_the_same_lighting() {
     let (few, many) = ([counts(0), counts(40)], [doubled(0), doubled(40)]);
     let (slow, fast) =
         ([times(0, 0, 8.0), times(0, 40, 16.0)], [times(0, 0, 4.0), times(1, 0, 5.0), times(0, 40, 2.0)]);
-    let summary = Summary::from_runs(&[
+    let summary = Summary::from_means(&[
         run("encl-persp-64", "1000", &many, &fast),
         run("indi-persp-64", "1000", &few, &slow),
         run("encl-ortho-4", "100", &few, &slow),
@@ -105,31 +110,34 @@ fn summary_ratios_are_to_indi_persp_of_the_same_lighting() {
     ]);
     let [encl, indi, first, untimed] = summary.rows.as_slice() else { panic!("four rows") };
     assert_eq!((encl.reference.as_str(), encl.frames), ("indi-persp-64", 2));
-    assert_eq!(encl.means.total_ms, Some(3.0));
-    assert_eq!(encl.means.clustering_ms, Some(0.75));
-    assert_eq!(encl.means.shading_ms, Some(1.5));
-    assert_eq!((encl.ratios.total_ms, encl.ratios.lighting_computations), (Some(0.25), Some(2.0)));
-    assert_eq!((encl.ratios.visible_clusters, indi.ratios.total_ms), (Some(1.0), Some(1.0)));
+    assert_eq!(encl.means.get("total_ms"), Some(3.0));
+    assert_eq!(encl.means.get("clustering_ms"), Some(0.75));
+    assert_eq!(encl.means.get("shading_ms"), Some(1.5));
+    assert_eq!(
+        (encl.ratios.get("total_ms"), encl.ratios.get("lighting_computations")),
+        (Some(0.25), Some(2.0))
+    );
+    assert_eq!((encl.ratios.get("visible_clusters"), indi.ratios.get("total_ms")), (Some(1.0), Some(1.0)));
     assert_eq!((first.reference.as_str(), untimed.reference.as_str()), ("encl-ortho-4", "encl-ortho-4"));
-    assert_eq!((untimed.means.total_ms, untimed.ratios.total_ms), (None, None));
-    assert_eq!(untimed.ratios.lighting_computations, Some(2.0));
+    assert_eq!((untimed.means.get("total_ms"), untimed.ratios.get("total_ms")), (None, None));
+    assert_eq!(untimed.ratios.get("lighting_computations"), Some(2.0));
 }
 
 #[test]
 fn summary_has_no_ratio_to_nothing() {
     let none = [FrameCounts::default()];
-    let summary = Summary::from_runs(&[
+    let summary = Summary::from_means(&[
         run("all-lights", "9", &none, &[]),
         run("encl-ortho-4", "9", &[counts(0)], &[]),
     ]);
-    assert_eq!(summary.rows[1].ratios.visible_clusters, None);
-    assert!(Summary::from_runs(&[]).to_string().contains("method"));
+    assert_eq!(summary.rows[1].ratios.get("visible_clusters"), None);
+    assert!(Summary::from_means(&[]).to_string().contains("method"));
 }
 
 #[test]
 fn summary_csv_has_means_and_ratios() {
     let (few, fast) = ([counts(0)], [times(0, 0, 4.0)]);
-    let summary = Summary::from_runs(&[run("indi-persp-64", "1000", &few, &fast)]);
+    let summary = Summary::from_means(&[run("indi-persp-64", "1000", &few, &fast)]);
     let expected = "method,lighting,frames,visible_clusters,light_indices,lighting_computations,clustering_ms,shading_ms,\
         total_ms,reference,visible_clusters_ratio,light_indices_ratio,lighting_computations_ratio,clustering_ms_ratio,\
         shading_ms_ratio,total_ms_ratio\n\
@@ -140,20 +148,21 @@ fn summary_csv_has_means_and_ratios() {
 
 #[test]
 fn summary_names_ways_and_tests_where_runs_differ_in_them() {
-    let means = |test: &str, light_indices| RunMeans {
-        scene: String::new(),
-        method: "indi-persp-64".parse().unwrap(),
-        lighting: "1000".into(),
-        assign: String::new(),
-        test: test.into(),
-        frames: 1,
-        means: Values { light_indices, ..Values::default() },
+    let means = |test: &str, light_indices| {
+        let row = FrameRow { light_indices, ..FrameRow::default() };
+        let all = Config { test: vec!["hs".parse().unwrap(), "exact".parse().unwrap()], ..Config::default() };
+        let one = Config { test: vec![test.parse().unwrap()], ..all.clone() };
+        RunMeans {
+            labels: Labels::new(&Config { methods: vec![one.methods[0]], ..one }, &all),
+            means: Values::mean(&[row]),
+            ..run("indi-persp-64", "1000", &[], &[])
+        }
     };
-    let summary = Summary::from_means(&[means("hs", 8.0), means("exact", 2.0)]);
+    let summary = Summary::from_means(&[means("hs", 8), means("exact", 2)]);
     let text = csv_text(|out| summary.write_csv(out));
     assert!(text.starts_with("method,lighting,test,frames,visible_clusters,"), "{text}");
-    assert!(text.contains("\nindi-persp-64,1000,exact,1,0.000,2.000,"), "{text}");
-    assert_eq!(summary.rows[1].ratios.light_indices, Some(0.25));
+    assert!(text.contains("\nindi-persp-64,1000,exact,0,0.000,2.000,"), "{text}");
+    assert_eq!(summary.rows[1].ratios.get("light_indices"), Some(0.25));
     assert!(
         summary.to_string().ends_with("the ratio to indi-persp-64, by its first way and test."),
         "{summary}"
@@ -162,12 +171,22 @@ fn summary_names_ways_and_tests_where_runs_differ_in_them() {
 
 #[test]
 fn summary_table_is_narrow_and_says_what_ratios_are_to() {
-    let frame = FrameCounts { lighting_computations: 9_876_543_210, ..counts(0) };
+    let mut frame = counts(0);
+    frame.counters.lighting_computations = 9_876_543_210;
     let (counts, times) = ([frame], [times(0, 0, 12_345.678)]);
     let names = ["indi-persp-64", "encl-displ-64-32"];
-    let runs: Vec<_> = names.iter().map(|name| run(name, "100000-100-0.5-0.1", &counts, &times)).collect();
-    let table = Summary::from_runs(&runs).to_string();
+    let bright = Lighting::with_count(100_000);
+    let lights = vec![bright, Lighting { intensity: 20.0, ..bright }];
+    let all = Config { lights, ..Config::default() };
+    let long = |name: &&str| {
+        let config =
+            Config { methods: vec![name.parse().unwrap()], lights: vec![bright], ..Config::default() };
+        RunMeans { labels: Labels::new(&config, &all), ..run(name, "100000", &counts, &times) }
+    };
+    let runs: Vec<_> = names.iter().map(long).collect();
+    let table = Summary::from_means(&runs).to_string();
     assert!(table.lines().all(|line| line.chars().count() < 140), "{table}");
+    assert!(table.contains("100000-100-0.5-0.1"), "{table}");
     assert!(
         table.contains("9 876 543 210 (1.00)") && table.ends_with("the ratio to indi-persp-64."),
         "{table}"
@@ -190,7 +209,8 @@ fn runs_are_named_by_method_and_by_lighting_where_needed() {
     let config = Config { lights: vec![thousand, Lighting::with_count(7)], ..Config::default() };
     let planned = planned_runs(&config);
     assert_eq!((planned.len(), planned[1].name.as_str()), (12, "encl-persp-64_1000"));
-    assert_eq!(planned[6].lighting, "7");
+    let lighting = |run: &PlannedRun| run.labels.get(Axis::named("lights").unwrap()).to_owned();
+    assert_eq!(lighting(&planned[6]), "7");
     let several = Config {
         methods: vec!["indi-persp-64".parse().unwrap(), "all-lights".parse().unwrap()],
         assign: vec![Assign::Hierarchy, Assign::Brute],
@@ -205,7 +225,7 @@ fn runs_are_named_by_method_and_by_lighting_where_needed() {
     let config = Config { lights: vec![thousand], test: several.test, ..Config::default() };
     assert_eq!(planned_runs(&config)[1].name, "indi-persp-64_hs+sat-n");
     let config = Config { lights: Vec::new(), scene_lights: true, ..Config::default() };
-    assert_eq!(planned_runs(&config)[0].lighting, "scene");
+    assert_eq!(lighting(&planned_runs(&config)[0]), "scene");
 }
 
 /// All files under a directory with their bytes.

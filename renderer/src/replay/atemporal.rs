@@ -7,7 +7,7 @@ use super::plan::FramePlan;
 use super::session::Session;
 use crate::Result;
 use crate::frame::Frame;
-use crate::gpu_interface::{ClusteringState, Counter, PixelData};
+use crate::gpu_interface::{ClusteringState, PixelData};
 use crate::lights::LightSource;
 use crate::measure::{FrameCounts, ViewPixels};
 use crate::methods::MethodSpec;
@@ -86,10 +86,7 @@ fn read_counts(
         let state = if clustered { state } else { ClusteringState::default() };
         let read = Counted::read(engine, session, (SLOT, plan.frame, c), (state, lights))?;
         read.check(lights)?;
-        counts.fragments_shaded += read.counter(Counter::FragmentsShaded);
-        counts.fragments_without_cluster += read.counter(Counter::FragmentsWithoutCluster);
-        counts.lighting_computations += read.counter(Counter::LightingComputations);
-        counts.needed_computations += read.counter(Counter::NeededComputations);
+        counts.counters.add(&read.counters);
         counts.lights_per_fragment.push(read.lights_per_fragment());
         if clustered {
             let capacity = engine.capacities().light_indices;

@@ -13,10 +13,11 @@ use crate::Result;
 use crate::assign::Assigner;
 use crate::config::{Config, FrameRange, Lighting, LightsFrom, Test};
 use crate::geometry::SphereTest;
-use crate::gpu_interface::{ClusteringState, Counter};
+use crate::gpu_interface::ClusteringState;
 use crate::lights::PointLight;
 use crate::measure::Capacities;
 use crate::methods::MethodSpec;
+use crate::output::makes_lists;
 use crate::passes::readback;
 use crate::replay::counted::Counted;
 use serde::Serialize;
@@ -74,9 +75,6 @@ pub struct BenchRow {
 
 /// The slot that benchmarked frames use: each is read before the next begins.
 const SLOT: usize = 0;
-/// Stages whose times make a row's.
-const STAGES: [&str; 6] =
-    ["transform_lights", "cull_lights", "build_hierarchy", "count_lights", "light_offsets", "assign_lights"];
 
 /// Times `bench` by the config's methods, scene, recording and resolution; rows come as soon as they are measured.
 ///
@@ -175,7 +173,7 @@ impl Case<'_> {
         for (clustering, state) in states.iter().enumerate() {
             let at = (SLOT, self.plan.frame, clustering);
             let read = Counted::read(&mut engine, session, at, (*state, self.lights.len() as u32))?;
-            intersection_tests += read.counter(Counter::IntersectionTests);
+            intersection_tests += read.counters.intersection_tests;
         }
         let sum = |count: fn(&ClusteringState) -> u32| states.iter().map(|s| u64::from(count(s))).sum();
         Ok(BenchRow {
@@ -194,7 +192,6 @@ impl Case<'_> {
     fn time(&self, session: &mut Session, engine: &mut Engine) -> Result<f64> {
         self.render(session, engine)?;
         let times: Vec<f64> = session.slots[SLOT].timestamps.read()?.map(|(gpu_ms, _)| gpu_ms).collect();
-        let of_assignment = |path: &str| path.rsplit('/').next().is_some_and(|stage| STAGES.contains(&stage));
-        Ok(engine.tree.paths().zip(times).filter(|(path, _)| of_assignment(path)).map(|(_, ms)| ms).sum())
+        Ok(engine.tree.paths().zip(times).filter(|(path, _)| makes_lists(path)).map(|(_, ms)| ms).sum())
     }
 }

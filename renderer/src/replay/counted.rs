@@ -2,8 +2,8 @@
 
 use super::engine::Engine;
 use super::session::Session;
-use crate::gpu_interface::{ClusteringState, Counter};
-use crate::measure::{ClusterLists, ClusterRecord, ClusteringCounts};
+use crate::gpu_interface::ClusteringState;
+use crate::measure::{ClusterLists, ClusterRecord, ClusteringCounts, DeviceCounts};
 use crate::passes::readback;
 use crate::vk::{Buffer, Memory};
 use crate::{Error, Result};
@@ -12,7 +12,8 @@ use ash::vk;
 /// Everything counted of one clustering in one frame.
 pub struct Counted {
     state: ClusteringState,
-    counters: Vec<u32>,
+    /// What the shaders counted.
+    pub counters: DeviceCounts,
     lights_per_fragment: Vec<u32>,
     visible_clusters: Vec<u32>,
     visible_fragments: Vec<u32>,
@@ -44,6 +45,7 @@ impl Counted {
                 data
             });
         let lists = ClusterLists { frame, clustering: clustering as u32, offsets, indices };
+        let counters = DeviceCounts::from_words(&counters);
         Ok(Self { state, counters, lights_per_fragment, visible_clusters, visible_fragments, lists })
     }
 
@@ -54,7 +56,7 @@ impl Counted {
     /// The driver ended a loop over `lights` lights early.
     pub fn check(&self, lights: u32) -> Result<()> {
         let listed: u64 = self.lights_per_fragment().iter().map(|&(lights, n)| u64::from(lights) * n).sum();
-        let evaluated = self.counter(Counter::LightingComputations);
+        let evaluated = self.counters.lighting_computations;
         if evaluated == listed && self.lists.ascend(lights) {
             return Ok(());
         }
@@ -63,12 +65,6 @@ impl Counted {
              loops early (lavapipe does, after 65 535 turns); use fewer lights, or smaller radii",
             self.lists.frame
         )))
-    }
-
-    /// One 64-bit counter.
-    pub fn counter(&self, counter: Counter) -> u64 {
-        let low = 2 * counter as usize;
-        u64::from(self.counters[low]) | u64::from(self.counters[low + 1]) << 32
     }
 
     /// (lights, fragments) of every bin with fragments, ascending.
@@ -85,7 +81,7 @@ impl Counted {
             dimensions,
             visible_clusters: u64::from(state.visible_total),
             light_indices: u64::from(state.index_total),
-            intersection_tests: self.counter(Counter::IntersectionTests),
+            intersection_tests: self.counters.intersection_tests,
             light_indices_dropped: u64::from(state.index_total.saturating_sub(capacity)),
             visible_clusters_dropped: u64::from(state.visible_total - state.visible),
             lists_hash: self.lists.hash(self.visible_clusters.iter().copied()),

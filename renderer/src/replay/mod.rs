@@ -164,7 +164,7 @@ fn replay_run(
     result.assigner = choose::assigner(config, inputs, session, (run, &plans))?;
     count(config, inputs, session, (run, &plans), (watch, sink), &mut result)?;
     if inputs.light_count(&run.lights)? > 0
-        && result.counts.iter().all(|frame| frame.needed_computations == 0)
+        && result.counts.iter().all(|frame| frame.counters.needed_computations == 0)
     {
         tracing::warn!("{}: no light reaches anything that is seen, in any frame", run.name);
     }

@@ -4,16 +4,12 @@ mod manifest;
 mod tables;
 
 use super::results::{LightingName, Picture, ResultSet, Run, is_tuned};
-use crate::output::{Older, age, check_run, find_runs, newest_of_each};
+use crate::output::{Manifest, Older, age, check_run, find_runs, newest_of_each};
 use crate::{Error, Result};
-use manifest::RunFile;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-
-/// By this file a run directory is known.
-const MANIFEST: &str = "run.json";
 
 /// Reads every run below `directories`.
 ///
@@ -28,7 +24,7 @@ pub fn load(directories: &[PathBuf]) -> Result<ResultSet> {
         found.extend(below.into_iter().map(|path| (name_below(root, &path), path)));
     }
     each_directory_once(&mut found);
-    let files = found.par_iter().map(|(_, path)| manifest::read(&path.join(MANIFEST))).collect::<Vec<_>>();
+    let files = found.par_iter().map(|(_, path)| Manifest::read(path)).collect::<Vec<_>>();
     let mut files = files.into_iter().collect::<Result<Vec<_>>>()?;
     let older = keep_newest(&mut found, &mut files)?;
     one_version(&found, &files)?;
@@ -48,11 +44,11 @@ fn each_directory_once(found: &mut Vec<(String, PathBuf)>) {
 }
 
 /// Of runs that were asked to do the same, leaves the newest; says which were older.
-fn keep_newest(found: &mut Vec<(String, PathBuf)>, files: &mut Vec<RunFile>) -> Result<Vec<Older>> {
-    let key = |((_, path), file): (&(String, PathBuf), &RunFile)| {
-        let method = file.method(&path.join(MANIFEST))?;
+fn keep_newest(found: &mut Vec<(String, PathBuf)>, files: &mut Vec<Manifest>) -> Result<Vec<Older>> {
+    let key = |((_, path), file): (&(String, PathBuf), &Manifest)| {
+        let method = manifest::method(file, path)?;
         // How many views there are follows from the recording.
-        let key = (file.setting(0, method), file.lights_key(), method.to_string());
+        let key = (manifest::setting(file, 0, method), manifest::lights_key(file), method.to_string());
         Ok((key, age(path, &file.started)))
     };
     let keys = found.iter().zip(files.iter()).map(key).collect::<Result<Vec<_>>>()?;
@@ -84,35 +80,35 @@ fn name_below(root: &Path, path: &Path) -> String {
     below.display().to_string()
 }
 
-fn one_version(found: &[(String, PathBuf)], files: &[RunFile]) -> Result<()> {
+fn one_version(found: &[(String, PathBuf)], files: &[Manifest]) -> Result<()> {
     let first = &files[0];
-    let Some(other) = files.iter().position(|file| file.built() != first.built()) else { return Ok(()) };
+    let built = manifest::built;
+    let Some(other) = files.iter().position(|file| built(file) != built(first)) else { return Ok(()) };
     Err(Error::input(format!(
         "results of different versions cannot be compared: {} was measured by {}, {} by {}; report them apart, or \
          measure anew",
         found[0].1.display(),
-        first.built(),
+        built(first),
         found[other].1.display(),
-        files[other].built(),
+        built(&files[other]),
     )))
 }
 
-fn read_run(name: &str, directory: &Path, file: &RunFile) -> Result<Run> {
-    let at = |name: &str| directory.join(name);
-    let method = file.method(&at(MANIFEST))?;
+fn read_run(name: &str, directory: &Path, file: &Manifest) -> Result<Run> {
+    let method = manifest::method(file, directory)?;
     check_run(directory)?;
-    let (views, frames) = tables::read_frames(&at("frames.csv"))?;
-    let grid = tables::read_grid(&at("clusterings.csv"))?;
+    let (views, frames) = tables::read_frames(directory)?;
+    let grid = tables::read_grid(directory)?;
     let (mut distributions, mut most_fragments) = Default::default();
     if is_tuned(method) {
-        (distributions, most_fragments) = tables::read_histograms(&at("histograms.csv"), &frames.numbers)?;
+        (distributions, most_fragments) = tables::read_histograms(directory, &frames.numbers)?;
     }
     Ok(Run {
         name: name.to_owned(),
-        setting: file.setting(views, method),
+        setting: manifest::setting(file, views, method),
         method,
-        lighting: file.lighting(),
-        device: file.device(),
+        lighting: manifest::lighting(file),
+        device: [file.device.name.clone(), file.device.driver.clone(), file.device.api.clone()],
         started: file.started.clone(),
         duration_s: file.duration_s,
         temporal_runs: file.config.runs,
@@ -120,7 +116,7 @@ fn read_run(name: &str, directory: &Path, file: &RunFile) -> Result<Run> {
         frames,
         distributions,
         most_fragments,
-        pictures: pictures(&at("frames")),
+        pictures: pictures(&directory.join("frames")),
     })
 }
 

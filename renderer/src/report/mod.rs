@@ -3,7 +3,7 @@
 //! Reads the files that [`crate::output`] wrote and nothing else: it knows no Vulkan.
 //!
 //! ```text
-//! DIR... ──> load ──> ResultSet ──┬─> figures ──> chart (SVG, CSV) ──┐
+//! DIR... ──> load ──> ResultSet ──┬─> figures ──> chart (SVG, CSV) ──┐        figures and claims: a folder a paper
 //!                                 ├─> claims ────────────────────────┼──> page (index.html)
 //!                                 ├─> tables ────────────────────────┤
 //!                                 └─> stats ─────────────────────────┘
@@ -18,11 +18,14 @@
 pub mod assign_bench;
 mod bins;
 mod chart;
-mod claims;
-mod figures;
+mod claim;
+mod figure;
 mod format;
+mod gelderen;
 mod load;
 mod page;
+mod paper;
+mod pictures;
 mod results;
 mod stats;
 mod tables;
@@ -33,13 +36,15 @@ mod testing;
 #[cfg(test)]
 mod tests;
 
-pub use claims::{ByWay, Claim, Evidence, Number, Verdict};
+pub use claim::{ByWay, Claim, Evidence, Number, Verdict};
 
 use crate::output::{Older, write_whole};
 use crate::{Error, Result};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use figures::Figure;
+use figure::Figure;
+use paper::PAPERS;
+use results::ResultSet;
 use serde::{Serialize, Serializer};
 use std::fmt;
 use std::io::Write;
@@ -55,9 +60,9 @@ pub struct Report {
     pub runs: usize,
     /// Runs left out, for there are newer ones that were asked to do the same.
     pub older: Vec<Older>,
-    /// Figures of the thesis that were drawn.
+    /// Figures that were drawn.
     pub drawn: Vec<String>,
-    /// Figures of the thesis for which there are no data.
+    /// Figures for which there are no data.
     pub missing: Vec<String>,
     /// The claims.
     pub claims: Vec<Claim>,
@@ -73,9 +78,9 @@ pub fn write_report(directories: &[PathBuf], out: Option<&Path>) -> Result<Repor
     };
     let set = load::load(directories)?;
     let out = out.map_or_else(|| first.join("report"), Path::to_owned);
-    let figures = figures::all(&set)?;
-    let galleries = figures::galleries(&set)?;
-    let claims = claims::check(&set);
+    let figures = figures(&set)?;
+    let galleries = pictures::galleries(&set)?;
+    let claims = claims(&set);
     let tables = tables::all(&set);
     for figure in figures.iter().chain(&galleries) {
         write_figure(&out.join("figures"), figure)?;
@@ -102,6 +107,17 @@ pub fn write_report(directories: &[PathBuf], out: Option<&Path>) -> Result<Repor
     };
     let (drawn, missing) = (ids(true), ids(false));
     Ok(Report { page, runs: set.runs.len(), older: set.older, drawn, missing, claims })
+}
+
+/// Every figure of every paper.
+fn figures(set: &ResultSet) -> Result<Vec<Figure>> {
+    let papers = PAPERS.iter().map(|paper| (paper.figures)(set)).collect::<Result<Vec<_>>>()?;
+    Ok(papers.into_iter().flatten().collect())
+}
+
+/// Every claim of every paper, checked.
+fn claims(set: &ResultSet) -> Vec<Claim> {
+    claim::check(PAPERS.iter().flat_map(|paper| paper.claims), set)
 }
 
 /// Writes a figure's SVG and CSV; of a figure without data, removes those of an earlier report.
@@ -137,7 +153,7 @@ impl fmt::Display for Report {
             writeln!(f, "no data for figures: {}", self.missing.join(" "))?;
         }
         for claim in &self.claims {
-            writeln!(f, "claim {}  {:16} {}", claim.number, claim.verdict, claim.claim)?;
+            writeln!(f, "claim {}  {:16} {}", claim.id, claim.verdict, claim.claim)?;
         }
         write!(f, "{}", self.page.display())
     }

@@ -2,7 +2,7 @@
 
 use super::way::Way;
 use crate::methods::{MethodSpec, Sharing, Space};
-use crate::output::Older;
+use crate::output::{FrameRow, Older};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -199,20 +199,6 @@ impl Setting {
     pub fn is_stereo(&self) -> bool {
         self.views > 1
     }
-
-    /// Which part of the thesis the scene belongs to.
-    pub fn is_sun_temple(&self) -> bool {
-        let belongs = |name: &str| {
-            let name = name.to_ascii_lowercase();
-            name.contains("temple") || name.contains("suntem")
-        };
-        belongs(&self.scene) || belongs(&self.recording)
-    }
-
-    /// Whether the camera flies the thesis's path through the street, which looks at far geometry around frame 580.
-    pub fn flies_the_street(&self) -> bool {
-        self.recording.to_ascii_lowercase().contains("bistro")
-    }
 }
 
 impl std::fmt::Display for Setting {
@@ -236,6 +222,23 @@ impl std::fmt::Display for Setting {
 }
 
 impl Frames {
+    /// The rows' counters and times, by column.
+    pub fn of(rows: &[FrameRow]) -> Self {
+        let mut metrics: Vec<(String, Vec<Option<f64>>)> = vec![];
+        for (place, row) in rows.iter().enumerate() {
+            let counters = row.counters().map(|(name, count)| (name, Some(count as f64)));
+            // How many views there are is not measured.
+            let cells = counters.filter(|(name, _)| *name != "views").chain(row.times());
+            for (index, (name, cell)) in cells.enumerate() {
+                if place == 0 {
+                    metrics.push((name.to_owned(), Vec::with_capacity(rows.len())));
+                }
+                metrics[index].1.push(cell);
+            }
+        }
+        Self { numbers: rows.iter().map(|row| row.frame).collect(), metrics }
+    }
+
     /// A metric's cells; empty where the file has no such column.
     pub fn metric(&self, name: &str) -> &[Option<f64>] {
         self.metrics.iter().find(|(known, _)| known == name).map_or(&[], |(_, cells)| cells)
@@ -292,4 +295,28 @@ pub const fn indi(space: Space) -> MethodSpec {
 /// The method of one clustering for all views.
 pub const fn encl(space: Space) -> MethodSpec {
     MethodSpec::Clustered { sharing: Sharing::Encl, space }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn metrics_are_columns_of_frames_csv() {
+        let frames = Frames::of(&[FrameRow::default()]);
+        for name in [
+            metric::VISIBLE,
+            metric::INDICES,
+            metric::COMPUTATIONS,
+            metric::TESTS,
+            metric::FRAME,
+            metric::CLUSTER,
+            metric::VISIBILITY,
+            metric::COUNT,
+            metric::ASSIGN,
+            metric::SHADE,
+        ] {
+            assert_eq!(frames.metric(name).len(), 1, "{name}");
+        }
+    }
 }

@@ -35,7 +35,7 @@ fn everything() -> Vec<Run> {
 }
 
 fn ids(runs: Vec<Run>, drawn: bool) -> Vec<String> {
-    let figures = figures::all(&set(runs)).unwrap();
+    let figures = figures(&set(runs)).unwrap();
     figures.into_iter().filter(|figure| figure.chart.is_some() == drawn).map(|figure| figure.id).collect()
 }
 
@@ -73,7 +73,7 @@ fn further_settings_get_figures_of_their_own() {
 
 #[test]
 fn sweeps_have_a_column_a_lighting_and_a_line_a_size() {
-    let figures = figures::all(&set(everything())).unwrap();
+    let figures = figures(&set(everything())).unwrap();
     let chart = figures.iter().find(|figure| figure.id == "6.4").unwrap().chart.as_ref().unwrap();
     assert_eq!(chart.columns, ["1000 lights", "10000 lights"]);
     assert_eq!(
@@ -91,7 +91,7 @@ fn sweeps_have_a_column_a_lighting_and_a_line_a_size() {
 
 #[test]
 fn breakdowns_add_up_to_the_whole() {
-    let figures = figures::all(&set(everything())).unwrap();
+    let figures = figures(&set(everything())).unwrap();
     for (id, whole, rest) in [("6.7", 10.0, 1.0), ("6.8", 4.0, 0.5)] {
         let chart = figures.iter().find(|figure| figure.id == id).unwrap().chart.as_ref().unwrap();
         let Some(Plot::Stack(Stack { parts, top })) = &chart.panels[0] else { panic!("a stack") };
@@ -165,8 +165,8 @@ fn the_page_is_one_file_without_links_to_others() {
     let mut runs = everything();
     runs[0].setting.scene = "</script><b>".into();
     let set = set(runs);
-    let figures = figures::all(&set).unwrap();
-    let claims = claims::check(&set);
+    let figures = figures(&set).unwrap();
+    let claims = claims(&set);
     let content = page::Content { figures: &figures, claims: &claims, ..Default::default() };
     let html = page::html(&set, &content);
     assert!(!html.contains("</script><b>"), "names are escaped");

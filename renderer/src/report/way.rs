@@ -1,75 +1,72 @@
-//! How light lists were built: the way of assignment and the test of light against cluster.
+//! How light lists were built: a run's value on each axis that is a method's way of working, such as the way of
+//! assignment and the test of light against cluster.
 
-use crate::methods::{MethodSpec, Space};
-use std::cmp::Ordering;
+use crate::config::{Axis, Config, Role};
+use crate::methods::MethodSpec;
 use std::fmt;
 
-/// What the thesis does, by its name in configurations.
-const BRUTE: &str = "brute";
-/// The thesis's own test of each grid, by its name in configurations.
-const OWN: &str = "auto";
-
-/// Results of different ways are never drawn or judged together. The thesis's own comes first.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// Results of different ways are never drawn or judged together. The thesis's own, which is the default, comes first.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Way {
-    /// `brute`, `hierarchy`, `scatter`, or `auto` for whatever was likely fastest.
-    pub assign: String,
-    /// `auto` for the thesis's own, half spaces or the box; otherwise the test's name.
-    test: String,
+    /// The value on each axis of [`Role::Way`], in their order, where it is not the thesis's own.
+    values: Vec<Option<String>>,
+}
+
+fn axes() -> impl Iterator<Item = &'static Axis> {
+    Axis::of_role(Role::Way)
+}
+
+/// A value as runs of `method` have it: a test by its name, not as `auto`.
+fn value(axis: &Axis, config: &Config, method: MethodSpec) -> String {
+    let of_method = Config { methods: vec![method], ..config.clone() };
+    let mut labels: Vec<String> = of_method.cases().iter().map(|run| axis.label(run, config)).collect();
+    labels.dedup();
+    labels.join(" or ")
+}
+
+/// What the thesis does.
+fn own(axis: &Axis, method: MethodSpec) -> String {
+    value(axis, &Config::default(), method)
 }
 
 impl Way {
-    /// The way of a run of `method`; what a configuration leaves out is the thesis's.
-    pub fn new(assign: Option<String>, test: Option<String>, method: MethodSpec) -> Self {
-        let own = Self::default();
-        let test = test.filter(|test| test != own_test(method)).unwrap_or(own.test);
-        Self { assign: assign.unwrap_or(own.assign), test }
+    /// The way of a run of `method`.
+    pub fn new(config: &Config, method: MethodSpec) -> Self {
+        let differing = |axis| Some(value(axis, config, method)).filter(|value| *value != own(axis, method));
+        Self { values: axes().map(differing).collect() }
     }
 
-    /// The test's name where the clusters are those of `method`.
-    pub fn test(&self, method: MethodSpec) -> &str {
-        if self.test == OWN { own_test(method) } else { &self.test }
+    /// The value on the axis of a name where the clusters are those of `method`.
+    pub fn value(&self, name: &str, method: MethodSpec) -> String {
+        let found = axes().zip(&self.values).find(|(axis, _)| axis.name == name);
+        found.map_or_else(String::new, |(axis, value)| value.clone().unwrap_or_else(|| own(axis, method)))
     }
 
-    fn key(&self) -> (bool, &str, bool, &str) {
-        (self.assign != BRUTE, &self.assign, self.test != OWN, &self.test)
-    }
-}
-
-/// What the thesis asks of a light and a cluster: the box of an orthographic one, else its half spaces.
-fn own_test(method: MethodSpec) -> &'static str {
-    match method {
-        MethodSpec::Clustered { space: Space::Ortho { .. }, .. } => "box",
-        _ => "hs",
+    /// A way by the names of its first two axes.
+    #[cfg(test)]
+    pub fn named(assign: &str, test: &str, method: MethodSpec) -> Self {
+        let (assign, test) = (vec![assign.parse().unwrap()], vec![test.parse().unwrap()]);
+        Self::new(&Config { assign, test, ..Config::default() }, method)
     }
 }
 
 impl Default for Way {
     fn default() -> Self {
-        Self { assign: BRUTE.into(), test: OWN.into() }
-    }
-}
-
-impl Ord for Way {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.key().cmp(&other.key())
-    }
-}
-
-impl PartialOrd for Way {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
+        Self { values: axes().map(|_| None).collect() }
     }
 }
 
 impl fmt::Display for Way {
+    /// The way of assignment, and what else is not the thesis's own by name.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self.assign.as_str() {
-            BRUTE => "brute force",
-            OWN => "the way chosen by counts",
-            other => other,
+        let mut values = axes().zip(&self.values);
+        f.write_str(match values.next().and_then(|(_, assign)| assign.as_deref()) {
+            None => "brute force",
+            Some("auto") => "the way chosen by counts",
+            Some(other) => other,
         })?;
-        if self.test == OWN { Ok(()) } else { write!(f, ", test {}", self.test) }
+        let mut others = values.filter_map(|(axis, value)| Some((axis.name, value.as_ref()?)));
+        others.try_for_each(|(name, value)| write!(f, ", {name} {value}"))
     }
 }
 
@@ -78,7 +75,7 @@ mod tests {
     use super::*;
 
     fn way(assign: &str, test: &str, method: &str) -> Way {
-        Way::new(Some(assign.into()), Some(test.into()), method.parse().unwrap())
+        Way::named(assign, test, method.parse().unwrap())
     }
 
     #[test]
@@ -86,9 +83,9 @@ mod tests {
         assert_eq!(way("brute", "hs", "indi-persp-64"), Way::default());
         assert_eq!(way("brute", "box", "indi-ortho-4"), Way::default());
         assert_eq!(way("brute", "auto", "indi-ortho-4"), Way::default());
-        assert_eq!(Way::new(None, None, "encl-displ-64-32".parse().unwrap()), Way::default());
+        assert_eq!(way("brute", "auto", "all-lights"), Way::default());
         assert_ne!(way("brute", "hs", "indi-ortho-4"), Way::default());
-        assert_eq!(Way::default().test("indi-ortho-4".parse().unwrap()), "box");
+        assert_eq!(Way::default().value("test", "indi-ortho-4".parse().unwrap()), "box");
     }
 
     #[test]

@@ -31,7 +31,7 @@ impl Scene {
                     instance.primitive
                 ));
             }
-            if !instance.world_from_object.is_finite() {
+            if !instance.world_from_object.as_mat4().is_finite() {
                 return Err(format!("instance {i} has a transform that is not finite"));
             }
         }
@@ -43,7 +43,7 @@ impl Scene {
             return Err(format!("has no triangle to draw{why}"));
         }
         match self.bounds() {
-            Some((min, max)) if min.is_finite() && max.is_finite() => Ok(()),
+            Some((min, max)) if min.as_vec3().is_finite() && max.as_vec3().is_finite() => Ok(()),
             _ => Err("reaches beyond what 32-bit floating point holds".into()),
         }
     }

@@ -148,7 +148,7 @@ impl<'a> Sweep<'a> {
         let fingerprint = Fingerprint::new(open.inputs, device, shaders);
         let mut pending: Pending = Vec::new();
         for run in &open.part.runs {
-            let wanted = fingerprint.of(&open.part.run_config(run))?;
+            let wanted = fingerprint.of(&run.config)?;
             if !self.force && self.is_there(&open.part.path(run), &wanted) {
                 failure::forget(open.part, run)?;
                 self.outcome.skipped += 1;

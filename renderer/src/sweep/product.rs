@@ -1,6 +1,6 @@
 //! The product of the axes, and what its runs are called.
 
-use crate::config::{Config, ExrFrames, LightsFrom, SceneEntry};
+use crate::config::{Config, ExrFrames, SceneEntry};
 use crate::output::{PlannedRun, planned_runs};
 use crate::{Error, Result};
 use std::path::{Path, PathBuf};
@@ -26,18 +26,6 @@ impl Part {
     pub fn path(&self, run: &PlannedRun) -> PathBuf {
         self.config.out.join(&run.name)
     }
-
-    /// The configuration that makes one run and no other.
-    pub fn run_config(&self, run: &PlannedRun) -> Config {
-        let mut config = self.config.clone();
-        config.methods = vec![run.method];
-        config.assign = vec![run.assign];
-        config.test = vec![run.test];
-        if let LightsFrom::Rain(lighting) = run.lights {
-            config.lights = vec![lighting];
-        }
-        config
-    }
 }
 
 /// All runs that a configuration asks for, by scene.
@@ -49,36 +37,21 @@ pub fn parts(config: &Config) -> Result<Vec<Part>> {
     let entries = config.scene_entries();
     let directories = directories(&entries)?;
     check_images(config, &entries)?;
-    let several = entries.len() > 1;
     let mut parts = Vec::new();
-    for (entry, directory) in entries.iter().zip(directories) {
-        let config = entry_config(config, entry, &directory, several);
-        parts.push(Part { directory, runs: planned_runs(&config), config });
-    }
-    for (part, entry) in parts.iter_mut().zip(&entries) {
-        part.runs.retain(|run| !config.exclude.iter().any(|rule| rule.matches(entry, &run.case())));
-        part.runs.iter().try_for_each(PlannedRun::check)?;
+    for (mut scene, directory) in config.by_scene().into_iter().zip(directories) {
+        if !directory.is_empty() {
+            scene.out.push(&directory);
+        }
+        let mut runs = planned_runs(&scene);
+        runs.retain(|run| !config.exclude.iter().any(|rule| rule.matches(&run.config)));
+        runs.iter().try_for_each(PlannedRun::check)?;
+        parts.push(Part { directory, config: scene, runs });
     }
     parts.retain(|part| !part.runs.is_empty());
     if parts.is_empty() {
         return Err(Error::input("exclude: no run is left: leave a rule out, or add to the axes"));
     }
     Ok(parts)
-}
-
-fn entry_config(config: &Config, entry: &SceneEntry, directory: &str, several: bool) -> Config {
-    let frames = entry.frames.unwrap_or(config.frames);
-    Config {
-        scene: entry.scene.clone(),
-        recording: entry.recording.clone(),
-        scenes: Vec::new(),
-        exclude: Vec::new(),
-        resolution: entry.resolution.unwrap_or(config.resolution),
-        frames,
-        exr: if several { config.exr.within(&frames) } else { config.exr.clone() },
-        out: if directory.is_empty() { config.out.clone() } else { config.out.join(directory) },
-        ..config.clone()
-    }
 }
 
 /// A directory a scene: its name, with the recording's behind it where a scene occurs more than once.
@@ -181,7 +154,7 @@ mod tests {
     #[test]
     fn the_configuration_of_a_run_asks_for_it_alone() {
         let parts = parts(&config(&["street=bistro", "temple=suntem"], &[])).unwrap();
-        let alone = super::parts(&parts[1].run_config(&parts[1].runs[3])).unwrap();
+        let alone = super::parts(&parts[1].runs[3].config).unwrap();
         assert_eq!(alone.len(), 1);
         assert_eq!(alone[0].runs.len(), 1);
         assert_eq!(alone[0].runs[0].method, parts[1].runs[3].method);

@@ -2,8 +2,7 @@
 
 use super::{Part, failure};
 use crate::Result;
-use crate::methods::MethodSpec;
-use crate::output::{PlannedRun, RunMeans, Summary, is_complete, saved_means};
+use crate::output::{RunMeans, Summary, is_complete, saved_means};
 
 /// Sums up every run of `parts` that is complete, whoever made it and when. Runs that failed last are left out.
 ///
@@ -19,20 +18,12 @@ pub fn summary(parts: &[Part]) -> Result<Summary> {
             }
             let (frames, means) = saved_means(&directory)?;
             runs.push(RunMeans {
-                scene: part.directory.clone(),
                 method: run.method,
-                lighting: run.lighting.clone(),
-                assign: way(part.config.assign.len(), run, run.assign.to_string()),
-                test: way(part.config.test.len(), run, run.test.to_string()),
+                labels: run.labels.clone().of_scene(&part.directory),
                 frames,
                 means,
             });
         }
     }
     Ok(Summary::from_means(&runs))
-}
-
-/// The name of a way or test where it tells runs apart: where there are `several`, and the method knows any.
-fn way(several: usize, run: &PlannedRun, name: String) -> String {
-    if several > 1 && run.method != MethodSpec::AllLights { name } else { String::new() }
 }

@@ -44,21 +44,21 @@ impl Files<'_> {
     fn manifest(&self, run: &PlannedRun, result: &RunResult) -> Manifest {
         let Inputs { scene, recording, .. } = self.inputs;
         Manifest {
-            format: RUN_FORMAT,
-            version: env!("CARGO_PKG_VERSION"),
-            git_revision: git_revision(),
+            format: RUN_FORMAT.into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            git_revision: git_revision().into(),
             fingerprint: self.fingerprint.clone(),
             method: run.method.to_string(),
             lighting: match run.lights {
                 LightsFrom::Rain(lighting) => Some(lighting),
                 LightsFrom::File(_) | LightsFrom::Scene => None,
             },
-            config: self.part.run_config(run),
+            config: run.config.clone(),
             assigned_by: result.assigner.to_string(),
             scene: Source { name: scene.name.clone(), sha256: scene.sha256.clone() },
             recording: Source { name: recording.name().to_owned(), sha256: recording.sha256().to_owned() },
             lights_file: self.lights_file(),
-            frame_count: result.counts.len(),
+            frame_count: Some(result.counts.len()),
             device: device(&result.device),
             capacities: result.capacities,
             growth: result.growth.clone(),

@@ -1,13 +1,14 @@
 use super::super::RunWriter;
 use super::super::testing::{counts, manifest, times};
 use super::*;
+use std::fs;
 use tempfile::TempDir;
 
 /// A whole run of two frames, timed twice.
 fn whole() -> TempDir {
     let out = tempfile::tempdir().unwrap();
     let timed = [times(0, 40, 8.0), times(0, 80, 9.0), times(1, 40, 8.0), times(1, 80, 7.0)];
-    let manifest = super::super::Manifest { frame_count: 2, ..manifest() };
+    let manifest = Manifest { frame_count: Some(2), ..manifest() };
     let writer = RunWriter::create(out.path(), "run").unwrap();
     writer.finish(&manifest, &[counts(40), counts(80)], &timed).unwrap();
     out
@@ -50,6 +51,7 @@ fn a_value_that_no_run_has_is_named_with_its_line() {
         ("frames.csv", ",650,", ",-1,", "line 2: lighting_computations `-1`"),
         ("frames.csv", ",650,", ",,", "line 2: lighting_computations ``"),
         ("frames.csv", ",650,", ",6.5,", "line 2: lighting_computations `6.5`"),
+        ("frames.csv", ",650,", ",0x28a,", "line 2: lighting_computations `0x28a` is no whole number"),
         ("frames.csv", ",8.000000,", ",NaN,", "line 2: gpu_ms_frame `NaN` is no finite number from 0 on"),
         ("frames.csv", ",8.000000,", ",inf,", "line 2: gpu_ms_frame `inf`"),
         ("frames.csv", ",7.000000,", ",-7.0,", "line 3: gpu_ms_frame `-7.0`"),

@@ -1,188 +1,75 @@
-//! `run.json`, as far as a report needs it.
+//! What a report asks of `run.json`.
 
+use crate::config::{Config, DisplacedVolume, Lighting, Marking};
+use crate::lights::Attenuation;
 use crate::methods::MethodSpec;
-use crate::output::RUN_FORMAT;
+use crate::output::{MANIFEST, Manifest, Source};
 use crate::report::format::grouped;
 use crate::report::results::{LightingName, Setting};
 use crate::report::way::Way;
 use crate::{Error, Result};
-use serde::Deserialize;
-use std::fs;
 use std::path::Path;
 
-/// A manifest; fields that a report does not use are left where they are.
-#[derive(Debug, Clone, Deserialize)]
-pub struct RunFile {
-    pub version: String,
-    pub git_revision: String,
-    method: String,
-    lighting: Option<Lighting>,
-    pub config: RunConfig,
-    scene: Source,
-    recording: Source,
-    lights_file: Option<Source>,
-    device: Device,
-    pub started: String,
-    pub duration_s: f64,
+/// Version and revision of the program that measured.
+pub fn built(run: &Manifest) -> String {
+    format!("manylight {} ({})", run.version, run.git_revision)
 }
 
-#[derive(Debug, Clone, Deserialize)]
-struct Lighting {
-    count: u32,
-    intensity: f64,
-    cutoff: f64,
-    r0: f64,
+/// The method of the run in `directory`.
+pub fn method(run: &Manifest, directory: &Path) -> Result<MethodSpec> {
+    run.method.parse().map_err(|error| Error::file(directory.join(MANIFEST), format!("method: {error}")))
 }
 
-#[derive(Debug, Clone, Deserialize)]
-pub struct RunConfig {
-    resolution: [u32; 2],
-    #[serde(default = "one")]
-    msaa: u32,
-    #[serde(default)]
-    pub runs: u32,
-    attenuation: Option<String>,
-    marking: Option<String>,
-    displaced_volume: Option<String>,
-    lights_file: Option<String>,
-    assign: Option<OneOrSeveral>,
-    test: Option<OneOrSeveral>,
+/// What it shares with runs that are drawn in one figure.
+pub fn setting(run: &Manifest, views: u32, method: MethodSpec) -> Setting {
+    Setting {
+        scene: run.scene.name.clone(),
+        recording: run.recording.name.clone(),
+        views,
+        resolution: run.config.resolution,
+        msaa: run.config.msaa,
+        options: options(&run.config),
+        hashes: [run.scene.sha256.clone(), run.recording.sha256.clone()],
+        way: Way::new(&run.config, method),
+    }
 }
 
-/// An axis of a sweep; a run's own configuration has one value on it.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(untagged)]
-enum OneOrSeveral {
-    One(String),
-    Several(Vec<String>),
+/// What is not as in the thesis, which goes without saying.
+fn options(config: &Config) -> Vec<String> {
+    let Config { attenuation, marking, displaced_volume, .. } = config;
+    let unusual = [
+        (*attenuation != Attenuation::PhyRed2).then(|| format!("attenuation {attenuation}")),
+        (*marking == Marking::Geometry).then(|| "marking from geometry".to_owned()),
+        (*displaced_volume == DisplacedVolume::Own).then(|| "displaced volume own".to_owned()),
+    ];
+    unusual.into_iter().flatten().collect()
 }
 
-impl OneOrSeveral {
-    fn name(&self) -> String {
-        match self {
-            Self::One(name) => name.clone(),
-            Self::Several(names) => names.join(" or "),
+/// Where its light came from.
+pub fn lighting(run: &Manifest) -> LightingName {
+    if let Some(Lighting { count, intensity, cutoff, r0 }) = run.lighting {
+        let mut label = format!("{} lights", grouped(u64::from(count)));
+        // The thesis's intensity of each count goes without saying.
+        if !matches!((count, intensity), (1000, 100.0) | (10_000, 20.0) | (100_000, 1.0)) {
+            label += &format!(", I {intensity}");
         }
-    }
-}
-
-fn one() -> u32 {
-    1
-}
-
-#[derive(Debug, Clone, Deserialize)]
-struct Source {
-    name: String,
-    sha256: String,
-}
-
-#[derive(Debug, Clone, Deserialize)]
-struct Device {
-    name: String,
-    driver: String,
-    api: String,
-}
-
-/// Reads a manifest of this program's format.
-pub fn read(path: &Path) -> Result<RunFile> {
-    let text =
-        fs::read_to_string(path).map_err(|error| Error::file(path, format!("cannot be read: {error}")))?;
-    let value: serde_json::Value =
-        serde_json::from_str(&text).map_err(|error| Error::file(path, format!("is not JSON: {error}")))?;
-    match value.get("format").and_then(serde_json::Value::as_str) {
-        Some(RUN_FORMAT) => {}
-        Some(other) if other.starts_with("manylight.run/") => {
-            let problem = format!("has format {other}, and this version reads {RUN_FORMAT}: measure anew");
-            return Err(Error::file(path, problem));
-        }
-        _ => {
-            let problem =
-                format!("was not written by a replay (its format is not {RUN_FORMAT}): leave it out");
-            return Err(Error::file(path, problem));
-        }
-    }
-    serde_path_to_error::deserialize(value).map_err(|error| {
-        let field = match error.path().to_string().as_str() {
-            "." => String::new(),
-            field => format!("{field}: "),
-        };
-        Error::file(path, format!("{field}{}: measure anew", error.into_inner()))
-    })
-}
-
-impl RunFile {
-    /// Version and revision of the program that measured.
-    pub fn built(&self) -> String {
-        format!("manylight {} ({})", self.version, self.git_revision)
-    }
-
-    pub fn method(&self, path: &Path) -> Result<MethodSpec> {
-        self.method.parse().map_err(|error| Error::file(path, format!("method: {error}")))
-    }
-
-    pub fn setting(&self, views: u32, method: MethodSpec) -> Setting {
-        // What is as in the thesis goes without saying.
-        let unusual = [
-            (&self.config.attenuation, "phy_red_2", "attenuation"),
-            (&self.config.marking, "depth", "marking from"),
-            (&self.config.displaced_volume, "view", "displaced volume"),
-        ];
-        let options = unusual.into_iter().filter_map(|(value, usual, what)| {
-            let value = value.as_ref().filter(|value| *value != usual)?;
-            Some(format!("{what} {value}"))
-        });
-        Setting {
-            scene: self.scene.name.clone(),
-            recording: self.recording.name.clone(),
-            views,
-            resolution: self.config.resolution,
-            msaa: self.config.msaa,
-            options: options.collect(),
-            hashes: [self.scene.sha256.clone(), self.recording.sha256.clone()],
-            way: self.way(method),
-        }
-    }
-
-    fn way(&self, method: MethodSpec) -> Way {
-        let [assign, test] =
-            [&self.config.assign, &self.config.test].map(|axis| axis.as_ref().map(OneOrSeveral::name));
-        Way::new(assign, test, method)
-    }
-
-    pub fn lighting(&self) -> LightingName {
-        if let Some(Lighting { count, intensity, cutoff, r0 }) = self.lighting {
-            let mut label = format!("{} lights", grouped(u64::from(count)));
-            // The thesis's intensity of each count goes without saying.
-            if !matches!((count, intensity), (1000, 100.0) | (10_000, 20.0) | (100_000, 1.0)) {
-                label += &format!(", I {intensity}");
-            }
-            for (name, value, usual) in [("I₀", cutoff, 0.5), ("R₀", r0, 0.1)] {
-                if value != usual {
-                    label += &format!(", {name} {value}");
-                }
-            }
-            return LightingName { count: Some(count), label, sha256: None };
-        }
-        match &self.lights_file {
-            Some(Source { name, sha256 }) => {
-                let label = format!("{name} ({sha256:.8})");
-                LightingName { count: None, label, sha256: Some(sha256.clone()) }
-            }
-            None => {
-                let label = self.config.lights_file.clone().unwrap_or_else(|| "the scene's lights".into());
-                LightingName { count: None, label, sha256: None }
+        for (name, value, usual) in [("I₀", cutoff, 0.5), ("R₀", r0, 0.1)] {
+            if value != usual {
+                label += &format!(", {name} {value}");
             }
         }
+        return LightingName { count: Some(count), label, sha256: None };
     }
+    if let Some(Source { name, sha256 }) = &run.lights_file {
+        let label = format!("{name} ({sha256:.8})");
+        return LightingName { count: None, label, sha256: Some(sha256.clone()) };
+    }
+    let file = run.config.lights_file.as_ref().map(|path| path.display().to_string());
+    LightingName { count: None, label: file.unwrap_or_else(|| "the scene's lights".into()), sha256: None }
+}
 
-    /// What tells its lights from those of others.
-    pub fn lights_key(&self) -> String {
-        let LightingName { label, sha256, .. } = self.lighting();
-        sha256.unwrap_or(label)
-    }
-
-    pub fn device(&self) -> [String; 3] {
-        let Device { name, driver, api } = &self.device;
-        [name.clone(), driver.clone(), api.clone()]
-    }
+/// What tells its lights from those of others.
+pub fn lights_key(run: &Manifest) -> String {
+    let LightingName { label, sha256, .. } = lighting(run);
+    sha256.unwrap_or(label)
 }

@@ -1,35 +1,25 @@
 //! The CSV tables of a run.
 
 use crate::Result;
-use crate::output::{CLUSTERINGS, FRAMES, HISTOGRAMS, each_row};
+use crate::output::{
+    ClusteringRow, FRAGMENTS_PER_CLUSTER, HistogramRow, LIGHTS_PER_CLUSTER, each_row, saved_frames,
+};
 use crate::report::bins;
 use crate::report::results::{Distribution, Frames};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Columns of `frames.csv` that are no metrics.
-const NO_METRICS: [&str; 3] = ["frame", "time_s", "views"];
-
 /// Views and metrics of `frames.csv`.
-pub fn read_frames(path: &Path) -> Result<(u32, Frames)> {
-    let columns = FRAMES.iter().filter(|name| !NO_METRICS.contains(name));
-    let mut metrics: Vec<_> = columns.map(|name| ((*name).to_owned(), vec![])).collect();
-    let (mut numbers, mut views) = (vec![], 0);
-    each_row(path, &FRAMES, |row| {
-        numbers.push(row.whole("frame")?);
-        views = row.whole("views")?;
-        metrics.iter_mut().try_for_each(|(name, cells)| row.optional(name).map(|cell| cells.push(cell)))
-    })?;
-    Ok((views, Frames { numbers, metrics }))
+pub fn read_frames(directory: &Path) -> Result<(u32, Frames)> {
+    let rows = saved_frames(directory)?;
+    Ok((rows.last().map_or(0, |row| row.views), Frames::of(&rows)))
 }
 
 /// The grid of the first clustering of the first frame; `None` for a method without clusters.
-pub fn read_grid(path: &Path) -> Result<Option<[u32; 3]>> {
+pub fn read_grid(directory: &Path) -> Result<Option<[u32; 3]>> {
     let mut grid = None;
-    each_row(path, &CLUSTERINGS, |row| {
-        if grid.is_none() {
-            grid = Some([row.whole("dx")?, row.whole("dy")?, row.whole("dz")?]);
-        }
+    each_row(directory, |_, row: ClusteringRow| {
+        grid = grid.or(Some([row.dx, row.dy, row.dz]));
         Ok(())
     })?;
     Ok(grid)
@@ -38,24 +28,24 @@ pub fn read_grid(path: &Path) -> Result<Option<[u32; 3]>> {
 type Distributions = BTreeMap<Distribution, Vec<Vec<u64>>>;
 
 /// Clusters by frame and by row of [`bins`], over clusterings; and the most fragments of any cluster.
-pub fn read_histograms(path: &Path, frames: &[u32]) -> Result<(Distributions, Option<u64>)> {
+pub fn read_histograms(directory: &Path, frames: &[u32]) -> Result<(Distributions, Option<u64>)> {
     let mut found = Distributions::new();
     let mut most = None;
-    each_row(path, &HISTOGRAMS, |row| {
-        let distribution = match row.text("kind") {
-            "lights_per_cluster" => Distribution::Lights,
-            "fragments_per_cluster" => Distribution::Fragments,
+    each_row(directory, |_, row: HistogramRow| {
+        let distribution = match &*row.kind {
+            LIGHTS_PER_CLUSTER => Distribution::Lights,
+            FRAGMENTS_PER_CLUSTER => Distribution::Fragments,
             _ => return Ok(()),
         };
-        let Ok(place) = frames.binary_search(&row.whole("frame")?) else { return Ok(()) };
-        let bin: u64 = row.whole("bin")?;
+        let Ok(place) = frames.binary_search(&row.frame) else { return Ok(()) };
+        let bin = u64::from(row.bin);
         if distribution == Distribution::Fragments {
             most = most.max(Some(bin));
         }
         let counts = &mut found.entry(distribution).or_insert_with(|| vec![vec![]; frames.len()])[place];
         let place = bins::row(bin);
         counts.resize(counts.len().max(place + 1), 0);
-        counts[place] += row.whole::<u64>("clusters")?;
+        counts[place] += row.clusters;
         Ok(())
     })?;
     Ok((found, most))

@@ -6,22 +6,15 @@ mod tables;
 pub use runs::write_runs_csv;
 
 use super::chart::palette;
-use super::claims::{ByWay, Claim, Evidence, Verdict};
-use super::figures::Figure;
+use super::claim::{ByWay, Claim, Evidence, Verdict};
+use super::figure::Figure;
 use super::format::readable;
+use super::paper::{PAPERS, Section};
 use super::results::ResultSet;
 use super::tables::Table;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use std::fmt::Write;
-
-/// Sections of figures: heading, anchor, and how the figures' numbers begin.
-const SECTIONS: [(&str, &str, &[&str]); 4] = [
-    ("Chapter 4: grids", "chapter-4", &["4."]),
-    ("Chapter 6: evaluation", "chapter-6", &["6."]),
-    ("Appendix A: attenuation", "appendix-a", &["A."]),
-    ("Appendix C: Sun Temple", "appendix-c", &["C"]),
-];
 
 /// How numbers come to be: name and explanation.
 const METHOD_NOTES: [(&str, &str); 6] = [
@@ -58,11 +51,11 @@ const METHOD_NOTES: [(&str, &str); 6] = [
 /// What was made of the results.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Content<'a> {
-    /// The thesis's figures.
+    /// The papers' figures.
     pub figures: &'a [Figure],
     /// Further pictures.
     pub galleries: &'a [Figure],
-    /// The thesis's claims.
+    /// The papers' claims.
     pub claims: &'a [Claim],
     /// Tables over several ways of assignment.
     pub tables: &'a [Table],
@@ -78,9 +71,9 @@ pub fn html(set: &ResultSet, content: &Content<'_>) -> String {
     if !tables.is_empty() {
         tables::section(&mut body, tables);
     }
-    for (heading, anchor, prefixes) in SECTIONS {
+    for Section { heading, anchor, ids } in sections() {
         section(&mut body, anchor, heading);
-        let belongs = |figure: &&Figure| prefixes.iter().any(|prefix| figure.id.starts_with(prefix));
+        let belongs = |figure: &&Figure| ids.iter().any(|start| figure.id.starts_with(start));
         figures.iter().filter(belongs).for_each(|figure| figure_element(&mut body, figure, true));
         body.push_str("</section>\n");
     }
@@ -92,6 +85,11 @@ pub fn html(set: &ResultSet, content: &Content<'_>) -> String {
     runs::section(&mut body, set);
     method_section(&mut body, set);
     document(&body, &numbers(figures))
+}
+
+/// The sections of all papers.
+fn sections() -> impl Iterator<Item = &'static Section> {
+    PAPERS.iter().flat_map(|paper| paper.sections)
 }
 
 fn document(body: &str, data: &str) -> String {
@@ -175,7 +173,7 @@ fn navigation(body: &mut String, content: &Content<'_>) {
     if !content.tables.is_empty() {
         body.push_str("<a href=\"#ways\">Ways of assignment</a>\n");
     }
-    for (heading, anchor, _) in SECTIONS {
+    for Section { heading, anchor, .. } in sections() {
         let short = heading.split(':').next().unwrap_or(heading);
         let _ = writeln!(body, "<a href=\"#{anchor}\">{short}</a>");
     }
@@ -204,7 +202,8 @@ fn figure_element(body: &mut String, figure: &Figure, numbered: bool) {
 }
 
 fn claims_section(body: &mut String, claims: &[Claim]) {
-    section(body, "claims", "Claims of the thesis");
+    let papers: Vec<&str> = PAPERS.iter().map(|paper| paper.name).collect();
+    section(body, "claims", &format!("Claims of {}", papers.join(" and ")));
     body.push_str("<div class=\"claims\">\n");
     for claim in claims {
         let (class, sign) = sign(claim.verdict);
@@ -212,7 +211,7 @@ fn claims_section(body: &mut String, claims: &[Claim]) {
             body,
             "<details class=\"claim\"><summary><span class=\"place\">{}</span><span class=\"words\">{}</span>\
              <span class=\"verdict {class}\"><i>{sign}</i> {}</span></summary>",
-            claim.number,
+            claim.id,
             text(claim.claim),
             claim.verdict
         );

@@ -83,7 +83,7 @@ mod tests {
         let mut made = run(method, views, 1000, move |name, _| {
             Some(if name == metric::VISIBILITY { value / 4.0 } else { value })
         });
-        made.setting.way = Way::new(Some(way[0].into()), Some(way[1].into()), made.method);
+        made.setting.way = Way::named(way[0], way[1], made.method);
         made
     }
 

@@ -33,7 +33,7 @@ pub fn table(set: &ResultSet) -> Table {
     Table {
         id: "indi-encl",
         title: "Indi against Encl by every way of assignment",
-        caption: "Means over the frames of each stereo replay, and Encl over Indi; claims 1 to 3 in numbers.",
+        caption: "Means over the frames of each stereo replay, and Encl over Indi; claims G1 to G3 in numbers.",
         labels: &["method", "lighting", "assigned by"],
         groups: METRICS.map(|(_, name)| (name, &["Indi", "Encl", "ratio"][..])).to_vec(),
         rows,

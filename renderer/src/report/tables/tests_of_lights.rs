@@ -38,7 +38,7 @@ pub fn table(set: &ResultSet) -> Table {
 
 /// The runs of one method under one lighting; no rows where the exact test or any other is missing.
 fn block(runs: &[&Run]) -> Vec<Row> {
-    let test = |run: &Run| run.setting.way.test(run.method).to_owned();
+    let test = |run: &Run| run.setting.way.value("test", run.method);
     let exact = runs.iter().find(|run| test(run) == EXACT).and_then(|run| mean(run, metric::INDICES));
     let Some(exact) = exact.filter(|_| runs.iter().any(|run| test(run) != EXACT)) else { return vec![] };
     let row = |run: &&Run| {
@@ -50,7 +50,7 @@ fn block(runs: &[&Run]) -> Vec<Row> {
                 method_name(run.method, true),
                 run.lighting.label.clone(),
                 test(run),
-                run.setting.way.assign.clone(),
+                run.setting.way.value("assign", run.method),
             ],
             numbers: vec![indices, beyond, mean(run, metric::COMPUTATIONS), assignment(run)],
         }

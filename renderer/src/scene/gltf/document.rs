@@ -187,7 +187,7 @@ pub(super) fn slice(bytes: &[u8], offset: u64, length: u64) -> Option<&[u8]> {
 
 fn parse(json: &[u8]) -> Result<Map<String, Value>, String> {
     // Some writers pad the JSON of a GLB file with zeros, which decoding leaves out.
-    let text = text::decode(json).map_err(|e| format!("is neither GLB nor text: {e}"))?;
+    let text = text::decode(json).map_err(|e| format!("is neither GLB nor valid JSON: {e}"))?;
     match serde_json::from_str(&text).map_err(|e| format!("is neither GLB nor valid JSON: {e}"))? {
         Value::Object(root) => Ok(root),
         _ => Err("is not glTF: its JSON is not an object".into()),

@@ -6,7 +6,8 @@ use crate::assign::{sort_passes, tree_depth};
 use crate::config::{Assign, Test};
 use crate::cpu::{Candidate, CellRange, Culled, FoundLists, Visible};
 use crate::geometry::SphereTest;
-use crate::gpu_interface::{BLOCK_WORDS, COUNTER_COUNT, Counter, GridData, TREE_WIDTH};
+use crate::gpu_interface::{BLOCK_WORDS, COUNTER_COUNT, GridData, TREE_WIDTH};
+use crate::measure::DeviceCounts;
 use crate::passes::{cull_lights, hierarchy, lights as light_upload};
 use std::mem::offset_of;
 
@@ -68,9 +69,8 @@ impl Culling {
     fn count(&mut self) -> u64 {
         self.bench.upload(|c| &c.buffers.counters, &[0; 2 * COUNTER_COUNT]);
         self.bench.run(|r, frame| assign::count_lights(r, frame, 0));
-        let slot = 2 * Counter::IntersectionTests as usize;
-        let words = self.bench.download(|c| &c.buffers.counters, slot + 2);
-        u64::from(words[slot]) | u64::from(words[slot + 1]) << 32
+        let words = self.bench.download(|c| &c.buffers.counters, 2 * COUNTER_COUNT);
+        DeviceCounts::from_words(&words).intersection_tests
     }
 
     /// Finishes the lists, and gives them.

@@ -1,7 +1,9 @@
-//! Claims 4 and 5: what far geometry does to Persp and to Ortho.
+//! G4 and G5: what far geometry does to Persp and to Ortho.
 
-use super::{Findings, is_far, mean_where, milliseconds, number};
+use super::is_far;
 use crate::methods::MethodSpec;
+use crate::report::claim::{Findings, mean_where, milliseconds, number};
+use crate::report::gelderen::flies_the_street;
 use crate::report::results::{ResultSet, Run, TUNED, indi, metric};
 
 pub(super) fn persp(set: &ResultSet) -> Findings {
@@ -44,7 +46,7 @@ fn on_the_street<'a>(set: &'a ResultSet, method: MethodSpec, findings: &mut Find
     let usable = |run: &&Run| {
         let frames = &run.frames.numbers;
         run.method == method
-            && run.setting.flies_the_street()
+            && flies_the_street(&run.setting)
             && frames.iter().any(|&frame| is_far(frame))
             && frames.iter().any(|&frame| !is_far(frame))
     };

@@ -1,7 +1,9 @@
-//! Claims 1 to 3: one clustering a view against one for all.
+//! G1 to G3: one clustering a view against one for all.
 
-use super::{Findings, is_far, mean, mean_where, milliseconds, number};
+use super::is_far;
 use crate::methods::Space;
+use crate::report::claim::{Findings, mean, mean_where, milliseconds, number};
+use crate::report::gelderen::flies_the_street;
 use crate::report::results::{ResultSet, Run, Setting, TUNED, encl, indi, method_name, metric};
 
 /// Runs of one lighting by Indi and by Encl.
@@ -69,7 +71,7 @@ pub(super) fn clustering_time(set: &ResultSet) -> Findings {
             let pairs = pairs(set, setting, space);
             for pair in &pairs {
                 lower(&mut findings, pair, metric::CLUSTER, "clustering time");
-                if matches!(space, Space::Ortho { .. }) && setting.flies_the_street() {
+                if matches!(space, Space::Ortho { .. }) && flies_the_street(setting) {
                     far_compared |= saves_more_afar(&mut findings, pair);
                 }
             }

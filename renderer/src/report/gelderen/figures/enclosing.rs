@@ -1,12 +1,12 @@
 //! Enclosing clustering of views that look apart (4.7).
 
-use super::Figure;
 use super::computed::picture;
 use crate::config::DisplacedVolume;
 use crate::geometry::{ClusterSpace, Frustum, Grid, plan};
 use crate::methods::{Sharing, Space};
 use crate::recording::{EyeRow, Hmd};
 use crate::report::chart::{Chart, Key, Look};
+use crate::report::figure::Figure;
 use crate::views::{Mirror, Pose, View};
 use crate::{Error, Result};
 use glam::{DVec2, DVec3};

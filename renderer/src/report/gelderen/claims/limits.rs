@@ -1,6 +1,6 @@
-//! Claims 6 to 8: steadiness, the bound of a cluster's fragments, growth with the lights.
+//! G6 to G8: steadiness, the bound of a cluster's fragments, growth with the lights.
 
-use super::{Findings, mean, milliseconds, number};
+use crate::report::claim::{Findings, mean, milliseconds, number};
 use crate::report::results::{ResultSet, Run, Setting, TUNED, indi, lightings, method_name, metric};
 use crate::report::stats::{Statistics, slope};
 

@@ -8,45 +8,15 @@ mod distribution;
 mod enclosing;
 mod falloff;
 mod over_time;
-mod pictures;
 
-use super::chart::{Chart, palette::Color};
-use super::results::{ResultSet, Setting};
+use super::is_sun_temple;
 use crate::Result;
 use crate::methods::{MethodSpec, Space};
+use crate::report::chart::{Chart, palette::Color};
+use crate::report::figure::{Drawn, Figure, Wanted, figures};
+use crate::report::pictures;
+use crate::report::results::{ResultSet, Setting};
 use over_time::Sweep;
-
-pub use pictures::galleries;
-
-/// A figure: drawn from one setting's runs, or a note of what is missing.
-#[derive(Debug, Clone)]
-pub struct Figure {
-    /// Number in the thesis, `-2` and so on behind it for further settings: name of its files.
-    pub id: String,
-    /// One line.
-    pub title: String,
-    /// What is drawn, and what it was drawn from.
-    pub caption: String,
-    /// The setting, for people; empty where nothing was measured for it.
-    pub setting: String,
-    /// The drawing; `None` where there are no data.
-    pub chart: Option<Chart>,
-}
-
-/// What the thesis draws, before data are found for it.
-struct Wanted<'a> {
-    id: &'a str,
-    title: &'a str,
-    caption: &'a str,
-    missing: &'a str,
-}
-
-/// A drawing with the setting it is of and a remark for the caption.
-struct Drawn<'a> {
-    setting: &'a Setting,
-    chart: Chart,
-    remark: String,
-}
 
 /// Every figure in the order of the thesis.
 ///
@@ -86,7 +56,7 @@ impl<'a> Scene<'a> {
 
     fn own(&self, settings: Vec<&'a Setting>, stereo: bool) -> Vec<&'a Setting> {
         let belongs =
-            |setting: &&Setting| setting.is_sun_temple() == self.sun_temple && setting.is_stereo() == stereo;
+            |setting: &&Setting| is_sun_temple(setting) == self.sun_temple && setting.is_stereo() == stereo;
         settings.into_iter().filter(belongs).collect()
     }
 
@@ -177,7 +147,10 @@ impl<'a> Scene<'a> {
 const CLUSTERS: Wanted<'static> = Wanted {
     id: "",
     title: "Grids of clusters",
-    caption: "Clusters in three colours, by the sum of their indices modulo 3: as the camera sees them (of several views               side by side), and from above, where the bird's eye only looks and clusters nothing. Grey surfaces lie in no               visible cluster. Green lines are the frusta of the views, red ones those of the clusterings, or their boxes.",
+    caption: "Clusters in three colours, by the sum of their indices modulo 3: as the camera sees them (of several views \
+              side by side), and from above, where the bird's eye only looks and clusters nothing. Grey surfaces lie in \
+              no visible cluster. Green lines are the frusta of the views, red ones those of the clusterings, or their \
+              boxes.",
     missing: "needs rendered frames of Persp 64, Ortho 4 or Displ 64 32: replay with --exr and frame numbers",
 };
 
@@ -199,16 +172,17 @@ const TUNED: Wanted<'static> = Wanted {
 const FRAME: Wanted<'static> = Wanted {
     id: "",
     title: "Frame breakdown",
-    caption: "GPU time of the frame (ms). Miscellaneous is what is neither clustering nor shading: lights and the \
-              resolve. Panels of one lighting have one scale.",
+    caption: "GPU time of the frame (ms). Miscellaneous is what is neither clustering nor shading: lights, culling \
+              and the resolve. Panels of one lighting have one scale.",
     missing: "",
 };
 
 const CLUSTERING: Wanted<'static> = Wanted {
     id: "",
     title: "Clustering breakdown",
-    caption: "GPU time of clustering (ms). Visibility is the depth pass and the marking of visible clusters; \
-              miscellaneous is compaction, transforming lights and prefix sums. Panels of one lighting have one scale.",
+    caption: "GPU time of clustering (ms). Visibility is the depth pass and the marking of visible clusters; count is with \
+              transforming or culling lights and building the hierarchy; miscellaneous is compaction and prefix sums. \
+              Panels of one lighting have one scale.",
     missing: "",
 };
 
@@ -229,33 +203,6 @@ const FRAGMENTS: Wanted<'static> = Wanted {
     missing: "",
 };
 
-impl<'a> Wanted<'a> {
-    const fn at(self, id: &'a str) -> Self {
-        Self { id, ..self }
-    }
-
-    const fn missing(self, missing: &'a str) -> Self {
-        Self { missing, ..self }
-    }
-}
-
-/// One figure a drawing, or one that says what is missing.
-fn figures(wanted: &Wanted<'_>, drawn: Vec<Drawn<'_>>) -> Vec<Figure> {
-    let title = wanted.title.to_owned();
-    if drawn.is_empty() {
-        let caption = format!("Not enough data: {}.", wanted.missing);
-        return vec![Figure { id: wanted.id.into(), title, caption, setting: String::new(), chart: None }];
-    }
-    let figure = |(index, drawn): (usize, Drawn<'_>)| Figure {
-        id: if index == 0 { wanted.id.into() } else { format!("{}-{}", wanted.id, index + 1) },
-        title: title.clone(),
-        caption: format!("{}{}", wanted.caption, drawn.remark),
-        setting: drawn.setting.to_string(),
-        chart: Some(drawn.chart),
-    };
-    drawn.into_iter().enumerate().map(figure).collect()
-}
-
 /// The colour of a kind of grid.
 fn space_color(method: MethodSpec) -> Color {
     match method {
@@ -265,5 +212,18 @@ fn space_color(method: MethodSpec) -> Color {
             Space::Ortho { .. } => "vermillion",
             Space::Displ { .. } => "green",
         },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_have_one_space_between() {
+        for Wanted { title, caption, .. } in [CLUSTERS, SHARING, TUNED, FRAME, CLUSTERING, LIGHTS, FRAGMENTS]
+        {
+            assert!(!caption.contains("  ") && !title.contains("  "), "{caption}");
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! Pictures that are computed for the report itself, pixel by pixel.
 
-use super::pictures::{Kind, encoded};
 use crate::Result;
 use crate::report::chart::Plot;
+use crate::report::pictures::{Kind, encoded};
 use glam::{DVec2, DVec3};
 use image::{Rgb, RgbImage};
 

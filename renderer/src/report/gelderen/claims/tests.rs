@@ -1,15 +1,20 @@
 //! Each claim on data for which it holds, data for which it does not, and none.
 
-use super::{Claim, Verdict, check};
+use super::{CLAIMS, is_far};
+use crate::report::claim::{self, Claim, Verdict};
 use crate::report::results::{Run, metric};
 use crate::report::testing::{run, set};
 
-fn claim(number: u32, runs: Vec<Run>) -> Claim {
-    check(&set(runs)).into_iter().find(|claim| claim.number == number).unwrap()
+fn check(runs: Vec<Run>) -> Vec<Claim> {
+    claim::check(&CLAIMS, &set(runs))
 }
 
-fn verdict(number: u32, runs: Vec<Run>) -> Verdict {
-    claim(number, runs).verdict
+fn claim(id: &str, runs: Vec<Run>) -> Claim {
+    check(runs).into_iter().find(|claim| claim.id == id).unwrap()
+}
+
+fn verdict(id: &str, runs: Vec<Run>) -> Verdict {
+    claim(id, runs).verdict
 }
 
 /// A run whose metric `name` is `value` at every frame, and all others 1.
@@ -19,9 +24,9 @@ fn flat(method: &str, views: u32, lights: u32, name: &'static str, value: f64) -
 
 #[test]
 fn without_data_nothing_is_said() {
-    for claim in check(&set(vec![])) {
-        assert_eq!(claim.verdict, Verdict::NotEnoughData, "{}", claim.number);
-        assert!(claim.evidence.is_empty() && !claim.missing.is_empty(), "{}", claim.number);
+    for claim in check(vec![]) {
+        assert_eq!(claim.verdict, Verdict::NotEnoughData, "{}", claim.id);
+        assert!(claim.evidence.is_empty() && !claim.missing.is_empty(), "{}", claim.id);
     }
 }
 
@@ -33,10 +38,10 @@ fn halving_is_from_two_fifths_to_three_fifths() {
             flat("encl-ortho-4", 2, 1000, metric::VISIBLE, encl),
         ]
     };
-    assert_eq!(verdict(1, runs(510.0)), Verdict::Holds);
-    assert_eq!(verdict(1, runs(610.0)), Verdict::DoesNotHold);
-    assert_eq!(verdict(1, runs(390.0)), Verdict::DoesNotHold);
-    let numbers = claim(1, runs(510.0)).evidence[0].numbers.clone();
+    assert_eq!(verdict("G1", runs(510.0)), Verdict::Holds);
+    assert_eq!(verdict("G1", runs(610.0)), Verdict::DoesNotHold);
+    assert_eq!(verdict("G1", runs(390.0)), Verdict::DoesNotHold);
+    let numbers = claim("G1", runs(510.0)).evidence[0].numbers.clone();
     assert_eq!(numbers.iter().map(|number| number.value).collect::<Vec<_>>(), [1000.0, 510.0, 0.51]);
 }
 
@@ -45,18 +50,18 @@ fn clustering_time_needs_all_three_parts() {
     let pair = |lights: u32, saved: f64, saved_afar: f64| {
         let time = move |by: f64| {
             move |name: &str, frame: u32| match name {
-                metric::CLUSTER => Some(by * if super::is_far(frame) { saved_afar } else { saved } + 1.0),
+                metric::CLUSTER => Some(by * if is_far(frame) { saved_afar } else { saved } + 1.0),
                 _ => Some(1.0),
             }
         };
         [run("indi-ortho-4", 2, lights, time(1.0)), run("encl-ortho-4", 2, lights, time(0.0))]
     };
     let both = |few, many| [pair(1000, few, 2.0 * few), pair(100_000, many, 2.0 * many)].concat();
-    assert_eq!(verdict(2, both(1.0, 9.0)), Verdict::Holds);
-    assert_eq!(verdict(2, both(9.0, 1.0)), Verdict::DoesNotHold);
-    assert_eq!(verdict(2, pair(1000, 1.0, 2.0).to_vec()), Verdict::NotEnoughData);
-    assert_eq!(verdict(2, [pair(1000, 1.0, 0.5), pair(100_000, 2.0, 3.0)].concat()), Verdict::DoesNotHold);
-    assert_eq!(verdict(2, pair(1000, -1.0, -1.0).to_vec()), Verdict::DoesNotHold);
+    assert_eq!(verdict("G2", both(1.0, 9.0)), Verdict::Holds);
+    assert_eq!(verdict("G2", both(9.0, 1.0)), Verdict::DoesNotHold);
+    assert_eq!(verdict("G2", pair(1000, 1.0, 2.0).to_vec()), Verdict::NotEnoughData);
+    assert_eq!(verdict("G2", [pair(1000, 1.0, 0.5), pair(100_000, 2.0, 3.0)].concat()), Verdict::DoesNotHold);
+    assert_eq!(verdict("G2", pair(1000, -1.0, -1.0).to_vec()), Verdict::DoesNotHold);
 }
 
 #[test]
@@ -67,15 +72,15 @@ fn lighting_computations_are_compared_for_persp() {
             flat("encl-persp-64", 2, 1000, metric::COMPUTATIONS, encl),
         ]
     };
-    assert_eq!(verdict(3, runs(99.0)), Verdict::Holds);
-    assert_eq!(verdict(3, runs(100.0)), Verdict::DoesNotHold);
+    assert_eq!(verdict("G3", runs(99.0)), Verdict::Holds);
+    assert_eq!(verdict("G3", runs(100.0)), Verdict::DoesNotHold);
 }
 
 #[test]
 fn far_geometry_is_compared_with_the_rest() {
     let persp = |visible_afar: f64| {
         run("indi-persp-64", 1, 1000, move |name, frame| {
-            let far = super::is_far(frame);
+            let far = is_far(frame);
             Some(match name {
                 metric::VISIBLE if far => visible_afar,
                 metric::VISIBLE => 100.0,
@@ -85,15 +90,15 @@ fn far_geometry_is_compared_with_the_rest() {
             })
         })
     };
-    assert_eq!(verdict(4, vec![persp(10.0)]), Verdict::Holds);
-    assert_eq!(verdict(4, vec![persp(200.0)]), Verdict::DoesNotHold);
+    assert_eq!(verdict("G4", vec![persp(10.0)]), Verdict::Holds);
+    assert_eq!(verdict("G4", vec![persp(200.0)]), Verdict::DoesNotHold);
     let ortho =
         |peak: u32| run("indi-ortho-4", 1, 1000, move |_, frame| Some(if frame == peak { 9.0 } else { 1.0 }));
-    assert_eq!(verdict(5, vec![ortho(580)]), Verdict::Holds);
-    assert_eq!(verdict(5, vec![ortho(300)]), Verdict::DoesNotHold);
+    assert_eq!(verdict("G5", vec![ortho(580)]), Verdict::Holds);
+    assert_eq!(verdict("G5", vec![ortho(300)]), Verdict::DoesNotHold);
     let mut elsewhere = ortho(580);
     elsewhere.setting.recording = "mine".into();
-    assert_eq!(verdict(5, vec![elsewhere]), Verdict::NotEnoughData);
+    assert_eq!(verdict("G5", vec![elsewhere]), Verdict::NotEnoughData);
 }
 
 #[test]
@@ -105,9 +110,9 @@ fn steadiness_is_the_deviation_of_the_frame() {
             })
             .to_vec()
     };
-    assert_eq!(verdict(6, runs(1.0)), Verdict::Holds);
-    assert_eq!(verdict(6, runs(2.5)), Verdict::DoesNotHold);
-    assert_eq!(verdict(6, runs(1.0)[..2].to_vec()), Verdict::NotEnoughData);
+    assert_eq!(verdict("G6", runs(1.0)), Verdict::Holds);
+    assert_eq!(verdict("G6", runs(2.5)), Verdict::DoesNotHold);
+    assert_eq!(verdict("G6", runs(1.0)[..2].to_vec()), Verdict::NotEnoughData);
 }
 
 #[test]
@@ -118,9 +123,9 @@ fn fragments_have_a_bound_at_one_sample_a_pixel() {
         run.setting.msaa = msaa;
         vec![run]
     };
-    assert_eq!(verdict(7, with(4096, 1)), Verdict::Holds);
-    assert_eq!(verdict(7, with(4097, 1)), Verdict::DoesNotHold);
-    assert_eq!(verdict(7, with(4097, 4)), Verdict::NotEnoughData);
+    assert_eq!(verdict("G7", with(4096, 1)), Verdict::Holds);
+    assert_eq!(verdict("G7", with(4097, 1)), Verdict::DoesNotHold);
+    assert_eq!(verdict("G7", with(4097, 4)), Verdict::NotEnoughData);
 }
 
 #[test]
@@ -130,9 +135,9 @@ fn growth_is_an_exponent() {
             .map(|lights| run("indi-ortho-4", 1, lights, move |_, _| Some(f64::from(lights).powf(exponent))))
             .to_vec()
     };
-    assert_eq!(verdict(8, runs(1.0)), Verdict::Holds);
-    assert_eq!(verdict(8, runs(0.5)), Verdict::DoesNotHold);
-    assert_eq!(verdict(8, runs(1.0)[..1].to_vec()), Verdict::NotEnoughData);
+    assert_eq!(verdict("G8", runs(1.0)), Verdict::Holds);
+    assert_eq!(verdict("G8", runs(0.5)), Verdict::DoesNotHold);
+    assert_eq!(verdict("G8", runs(1.0)[..1].to_vec()), Verdict::NotEnoughData);
 }
 
 #[test]
@@ -144,14 +149,14 @@ fn ways_of_assignment_are_judged_apart() {
             flat("encl-ortho-4", 2, 1000, metric::VISIBLE, 50.0),
         ];
         for run in &mut runs {
-            run.setting.way = Way::new(Some(assign.into()), None, run.method);
+            run.setting.way = Way::named(assign, "auto", run.method);
         }
         runs
     };
-    let first = claim(1, [by("scatter", 60.0), by("brute", 100.0)].concat());
+    let first = claim("G1", [by("scatter", 60.0), by("brute", 100.0)].concat());
     assert_eq!((first.verdict, first.way.as_str(), first.evidence.len()), (Verdict::Holds, "brute force", 1));
     let others: Vec<_> = first.other_ways.iter().map(|other| (other.way.as_str(), other.verdict)).collect();
     assert_eq!(others, [("scatter", Verdict::DoesNotHold)]);
-    let alone = claim(1, by("scatter", 60.0).to_vec());
+    let alone = claim("G1", by("scatter", 60.0).to_vec());
     assert_eq!((alone.verdict, alone.way.as_str()), (Verdict::DoesNotHold, "scatter"));
 }

@@ -1,8 +1,8 @@
 //! How clusters lie (4.8): what the camera sees, and the same from above.
 
-use super::pictures::{Kind, nearest, order, shown};
 use crate::Result;
 use crate::report::chart::{Chart, Plot};
+use crate::report::pictures::{Kind, nearest, order, shown};
 use crate::report::results::{Picture, ResultSet, Run, Setting, is_tuned, method_name};
 
 /// Two columns a frame, a row a tuned method; `None` where nothing was drawn from above. Clusters do not depend on lights.

@@ -1,9 +1,9 @@
 //! Attenuation curves (A.1).
 
-use super::Figure;
 use crate::cpu::attenuation;
 use crate::lights::{Attenuation, PointLight};
 use crate::report::chart::{Chart, Key, Look, Plot, Series, palette::NAMED};
+use crate::report::figure::Figure;
 
 /// Curves are drawn to this distance, metres.
 const FARTHEST: f64 = 2.4;

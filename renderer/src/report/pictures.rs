@@ -1,6 +1,6 @@
-//! Rendered frames (6.1, C.1, C.2) and galleries of frames with the light counts of every method.
+//! Rendered frames, and galleries of frames with the light counts of every method.
 
-use super::Figure;
+use super::figure::Figure;
 use crate::methods::{MethodSpec, Sharing};
 use crate::report::chart::{Chart, Picture as Shown, Plot};
 use crate::report::data_uri;
@@ -38,7 +38,7 @@ pub fn frames(set: &ResultSet, setting: &Setting, wanted: &[u32]) -> Result<Opti
         String::new()
     } else {
         let wanted: Vec<String> = wanted.iter().map(u32::to_string).collect();
-        format!(" The thesis shows frame {}; of those rendered, the nearest is drawn.", wanted.join(" and "))
+        format!(" The paper shows frame {}; of those rendered, the nearest is drawn.", wanted.join(" and "))
     };
     let chart = Chart {
         names: ["frame", "lighting", "picture", "number"],

@@ -1,0 +1,380 @@
+//! The axes of the product that runs are made of. Each is one entry of [`AXES`]: the product, the rules of `exclude`
+//! with their schema, names of run directories, the closing table's columns and what reports tell runs apart by follow.
+
+use super::{Config, Lighting, LightsFrom, SceneEntry};
+use crate::methods::MethodSpec;
+use std::fmt;
+use std::path::Path;
+
+/// What an axis is to a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Role {
+    /// What is looked at: of several, each has a directory for its runs.
+    Scene,
+    /// How lights are found: names every run.
+    Method,
+    /// What light falls: in every table, and in the names of runs where there are several.
+    Lighting,
+    /// How a method does its work: told where there are several.
+    Way,
+    /// Comes with the scene and names nothing.
+    WithScene,
+}
+
+/// What a rule of `exclude` calls values by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Values {
+    /// Names, in which `*` stands for any text.
+    Names,
+    /// Numbers.
+    Counts,
+}
+
+/// An axis. A configuration may have several values on it; that of a run has one.
+pub struct Axis {
+    /// Its name in rules.
+    pub name: &'static str,
+    /// What rules know of it, for the schema.
+    pub description: &'static str,
+    /// Its column in CSV and JSON.
+    pub column: &'static str,
+    /// What it is to a run.
+    pub role: Role,
+    /// What rules call its values by.
+    pub values: Values,
+    /// Whether the runs of a method differ along it.
+    pub applies: fn(&MethodSpec) -> bool,
+    /// How many values a configuration gives.
+    count: fn(&Config) -> usize,
+    /// A configuration for each value. The method is one already, but for the axes before it.
+    split: fn(&Config) -> Vec<Config>,
+    /// What a rule may call the value of a run.
+    called: fn(&Config) -> Vec<String>,
+    /// What tells the value of a run from the others of the configuration.
+    label: fn(&Config, &Config) -> String,
+}
+
+/// Every axis: of the product the first varies slowest.
+pub static AXES: [Axis; 6] = [
+    Axis {
+        name: "scene",
+        description: "The scene as the configuration has it, or its file's name without extension; `*` stands for any \
+                      text.",
+        column: "scene",
+        role: Role::Scene,
+        values: Values::Names,
+        applies: |_| true,
+        count: |config| config.scenes.len().max(1),
+        split: |config| {
+            let several = config.scenes.len() > 1;
+            config.scene_entries().iter().map(|entry| of_scene(config, entry, several)).collect()
+        },
+        called: |run| name_and_stem(&run.scene),
+        // Its directory tells it.
+        label: |_, _| String::new(),
+    },
+    Axis {
+        name: "recording",
+        description: "The recording as the configuration has it, or its file's name without extension; `*` stands for any \
+                      text.",
+        column: "recording",
+        role: Role::WithScene,
+        values: Values::Names,
+        applies: |_| true,
+        count: |_| 1,
+        split: |config| vec![config.clone()],
+        called: |run| name_and_stem(&run.recording),
+        label: |_, _| String::new(),
+    },
+    Axis {
+        name: "lights",
+        description: "How many lights fall.",
+        column: "lighting",
+        role: Role::Lighting,
+        values: Values::Counts,
+        applies: |_| true,
+        count: |config| config.lights_from().len(),
+        split: |config| match config.lights.as_slice() {
+            [] => vec![config.clone()],
+            lights => each(lights, |lighting| Config { lights: vec![lighting], ..config.clone() }),
+        },
+        called: |run| run.lights.iter().map(|lighting| lighting.count.to_string()).collect(),
+        label: |run, all| lighting_name(&run.lights_of_run(), &all.lights_from()),
+    },
+    Axis {
+        name: "method",
+        description: "The method's name; `*` stands for any text.",
+        column: "method",
+        role: Role::Method,
+        values: Values::Names,
+        applies: |_| true,
+        count: |config| config.methods.len(),
+        split: |config| each(&config.methods, |method| Config { methods: vec![method], ..config.clone() }),
+        called: |run| vec![names(&run.methods)],
+        label: |run, _| names(&run.methods),
+    },
+    Axis {
+        name: "assign",
+        description: "The way of assignment; `*` stands for any text.",
+        column: "assign",
+        role: Role::Way,
+        values: Values::Names,
+        applies: is_clustered,
+        count: |config| config.assign.len(),
+        split: |config| each(&config.assign, |assign| Config { assign: vec![assign], ..config.clone() }),
+        called: |run| vec![names(&run.assign)],
+        label: |run, _| names(&run.assign),
+    },
+    Axis {
+        name: "test",
+        description: "The test of light against cluster, `auto` as what it is for the method; `*` stands for any text.",
+        column: "test",
+        role: Role::Way,
+        values: Values::Names,
+        applies: is_clustered,
+        count: |config| config.test.len(),
+        split: |config| {
+            let method = config.methods[0];
+            each(&config.test, |test| Config { test: vec![test.resolved(&method)], ..config.clone() })
+        },
+        called: |run| vec![names(&run.test)],
+        label: |run, _| names(&run.test),
+    },
+];
+
+impl Axis {
+    /// The axis of a name.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        AXES.iter().find(|axis| axis.name == name)
+    }
+
+    /// The axes of a role.
+    pub fn of_role(role: Role) -> impl Iterator<Item = &'static Self> {
+        AXES.iter().filter(move |axis| axis.role == role)
+    }
+
+    /// Those that tables have columns for, in the columns' order.
+    pub fn told() -> impl Iterator<Item = &'static Self> {
+        [Role::Scene, Role::Method, Role::Lighting, Role::Way].into_iter().flat_map(Self::of_role)
+    }
+
+    /// A configuration for each value, what comes out the same once; one where runs of the method do not differ.
+    pub fn split(&self, config: &Config) -> Vec<Config> {
+        let mut runs: Vec<Config> = vec![];
+        for run in (self.split)(config) {
+            if !runs.contains(&run) {
+                runs.push(run);
+            }
+        }
+        if config.methods.first().is_some_and(|method| !(self.applies)(method)) {
+            runs.truncate(1);
+        }
+        runs
+    }
+
+    /// Whether a rule may call the value of a run so; a method that the axis does not apply to has none.
+    pub fn is_called(&self, run: &Config, matches: impl Fn(&str) -> bool) -> bool {
+        run.methods.first().is_none_or(self.applies) && (self.called)(run).iter().any(|name| matches(name))
+    }
+
+    /// What tells the value of `run` from the others of `all`.
+    pub fn label(&self, run: &Config, all: &Config) -> String {
+        (self.label)(run, all)
+    }
+
+    /// Whether `run` must be told from others of `all` by its value.
+    fn tells_apart(&self, run: &Config, all: &Config) -> bool {
+        match self.role {
+            Role::Method => true,
+            Role::Lighting | Role::Way => {
+                (self.count)(all) > 1 && run.methods.first().is_some_and(self.applies)
+            }
+            Role::Scene | Role::WithScene => false,
+        }
+    }
+}
+
+impl fmt::Debug for Axis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+impl PartialEq for Axis {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+/// What a run is called on each axis of [`Axis::told`]; empty where it need not be told.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Labels(Vec<(&'static Axis, String)>);
+
+impl Labels {
+    /// Those of a run of the configuration `all`, whose scene is one.
+    pub fn new(run: &Config, all: &Config) -> Self {
+        let label = |axis: &'static Axis| match axis.role == Role::Lighting || axis.tells_apart(run, all) {
+            true => (axis, axis.label(run, all)),
+            false => (axis, String::new()),
+        };
+        Self(Axis::told().map(label).collect())
+    }
+
+    /// The same, with the scene told.
+    #[must_use]
+    pub fn of_scene(mut self, scene: &str) -> Self {
+        for (_, label) in self.0.iter_mut().filter(|(axis, _)| axis.role == Role::Scene) {
+            scene.clone_into(label);
+        }
+        self
+    }
+
+    /// Every axis with the label on it.
+    pub fn iter(&self) -> impl Iterator<Item = (&'static Axis, &str)> {
+        self.0.iter().map(|(axis, label)| (*axis, label.as_str()))
+    }
+
+    /// The label on an axis.
+    pub fn get(&self, axis: &Axis) -> &str {
+        self.iter().find(|(other, _)| *other == axis).map_or("", |(_, label)| label)
+    }
+
+    /// The labels on the axes of some roles.
+    pub fn of(&self, roles: &[Role]) -> Vec<&str> {
+        self.iter().filter(|(axis, _)| roles.contains(&axis.role)).map(|(_, label)| label).collect()
+    }
+}
+
+/// Name of a run's directory among the runs of the configuration `all`: the method, and behind it what tells it apart.
+pub fn run_name(run: &Config, all: &Config) -> String {
+    let told = Axis::told().filter(|axis| axis.tells_apart(run, all));
+    told.map(|axis| axis.label(run, all)).collect::<Vec<_>>().join("_")
+}
+
+impl Config {
+    /// A configuration for each scene.
+    pub fn by_scene(&self) -> Vec<Self> {
+        self.product(|role| role == Role::Scene)
+    }
+
+    /// The configuration of every run of one scene.
+    pub fn cases(&self) -> Vec<Self> {
+        self.product(|role| role != Role::Scene)
+    }
+
+    fn product(&self, of: impl Fn(Role) -> bool) -> Vec<Self> {
+        let axes = AXES.iter().filter(|axis| of(axis.role));
+        axes.fold(vec![self.clone()], |configs, axis| {
+            configs.iter().flat_map(|config| axis.split(config)).collect()
+        })
+    }
+}
+
+fn of_scene(config: &Config, entry: &SceneEntry, several: bool) -> Config {
+    let frames = entry.frames.unwrap_or(config.frames);
+    Config {
+        scene: entry.scene.clone(),
+        recording: entry.recording.clone(),
+        scenes: Vec::new(),
+        exclude: Vec::new(),
+        resolution: entry.resolution.unwrap_or(config.resolution),
+        frames,
+        exr: if several { config.exr.within(&frames) } else { config.exr.clone() },
+        ..config.clone()
+    }
+}
+
+fn each<T: Copy>(values: &[T], with: impl Fn(T) -> Config) -> Vec<Config> {
+    values.iter().map(|&value| with(value)).collect()
+}
+
+fn names<T: ToString>(values: &[T]) -> String {
+    values.iter().map(ToString::to_string).collect::<Vec<_>>().join(",")
+}
+
+fn name_and_stem(name: &str) -> Vec<String> {
+    let stem = Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    [name.to_owned()].into_iter().chain(stem).collect()
+}
+
+fn is_clustered(method: &MethodSpec) -> bool {
+    *method != MethodSpec::AllLights
+}
+
+/// What tells a lighting from the others.
+fn lighting_name(lights: &LightsFrom, all: &[LightsFrom]) -> String {
+    let count = |lights: &LightsFrom| match lights {
+        LightsFrom::Rain(lighting) => Some(lighting.count),
+        LightsFrom::File(_) | LightsFrom::Scene => None,
+    };
+    match lights {
+        LightsFrom::Rain(Lighting { count: n, intensity, cutoff, r0 })
+            if all.iter().filter(|other| count(other) == Some(*n)).count() > 1 =>
+        {
+            format!("{n}-{intensity}-{cutoff}-{r0}")
+        }
+        _ => lights.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::{Assign, Exclude};
+    use std::collections::BTreeSet;
+
+    /// Several values on every axis.
+    fn everything() -> Config {
+        let read = |name: &str| name.parse().unwrap();
+        Config {
+            scenes: ["street=bistro", "temple=suntem"].map(|text| text.parse().unwrap()).to_vec(),
+            lights: vec![Lighting::with_count(1), Lighting::with_count(20)],
+            methods: ["indi-persp-64", "encl-ortho-4", "all-lights"].map(read).to_vec(),
+            assign: vec![Assign::Brute, Assign::Scatter],
+            test: ["auto", "hs", "exact"].map(|name| name.parse().unwrap()).to_vec(),
+            ..Config::default()
+        }
+    }
+
+    fn runs() -> Vec<Config> {
+        everything().by_scene().iter().flat_map(Config::cases).collect()
+    }
+
+    #[test]
+    fn the_product_has_every_combination_that_differs_once() {
+        // Of three tests, Persp has its own under two names and Ortho has not; the third method knows no ways.
+        assert_eq!(runs().len(), 2 * 2 * (2 * 2 + 2 * 3 + 1));
+        for run in runs() {
+            assert_eq!((run.by_scene(), run.cases()), (vec![run.clone()], vec![run]));
+        }
+    }
+
+    #[test]
+    fn runs_of_a_scene_have_names_and_labels_of_their_own() {
+        for scene in everything().by_scene() {
+            let runs = scene.cases();
+            let names: BTreeSet<String> = runs.iter().map(|run| run_name(run, &scene)).collect();
+            let labels: BTreeSet<String> =
+                runs.iter().map(|run| format!("{:?}", Labels::new(run, &scene))).collect();
+            assert_eq!((names.len(), labels.len()), (runs.len(), runs.len()));
+        }
+    }
+
+    #[test]
+    fn a_rule_of_every_axis_leaves_out_the_runs_it_names_alone() {
+        let of = |axis: &Axis, run: &Config| match (axis.applies)(&run.methods[0]) {
+            true => (axis.called)(run),
+            false => vec![],
+        };
+        for axis in &AXES {
+            let values: BTreeSet<String> = runs().iter().flat_map(|run| of(axis, run)).collect();
+            assert!(values.len() > 1, "{axis:?}");
+            for value in values {
+                let rule: Exclude = format!("{}={value}", axis.name).parse().unwrap();
+                for run in runs() {
+                    assert_eq!(rule.matches(&run), of(axis, &run).contains(&value), "{rule} {}", run.scene);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,251 @@
+//! The rows of a run's CSV tables, each declared once: header, writer and readers follow from the type.
+
+use super::stages::{self, StageMinima};
+use crate::measure::FrameCounts;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+
+/// A row of a table of a run.
+pub trait Row: Serialize + DeserializeOwned + PartialEq {
+    /// The table's file.
+    const FILE: &'static str;
+    /// Its columns.
+    const COLUMNS: &'static [&'static str];
+
+    /// The first column whose value its type allows and no run has.
+    fn unsound(&self) -> Option<&'static str>;
+}
+
+/// What a value must be beyond its type.
+trait Cell {
+    fn is_sound(&self) -> bool {
+        true
+    }
+}
+
+impl Cell for u32 {}
+impl Cell for u64 {}
+impl Cell for String {}
+impl Cell for Cow<'static, str> {}
+
+/// A quantity: finite and not negative.
+impl Cell for f64 {
+    fn is_sound(&self) -> bool {
+        self.is_finite() && *self >= 0.0
+    }
+}
+
+impl Cell for Option<f64> {
+    fn is_sound(&self) -> bool {
+        self.as_ref().is_none_or(Cell::is_sound)
+    }
+}
+
+/// Declares a row by its file, its name and its columns.
+macro_rules! row {
+    ($(#[$doc:meta])* $file:literal $name:ident { $($(#[$meta:meta])* $column:ident: $type:ty,)* }) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+        pub struct $name {
+            $($(#[$meta])* pub $column: $type,)*
+        }
+
+        impl Row for $name {
+            const FILE: &'static str = $file;
+            const COLUMNS: &'static [&'static str] = &[$(stringify!($column)),*];
+
+            fn unsound(&self) -> Option<&'static str> {
+                let cells = [$((stringify!($column), self.$column.is_sound())),*];
+                cells.into_iter().find(|(_, sound)| !sound).map(|(column, _)| column)
+            }
+        }
+    };
+}
+
+/// Declares the row of `frames.csv`: its counters, each by what it is of [`FrameCounts`], and its times, each by the
+/// stages that it sums.
+macro_rules! frame_row {
+    (
+        counters { $($(#[$counter_doc:meta])* $counter:ident: $type:ty = $count:expr;)* }
+        times { $($(#[$time_doc:meta])* $time:ident = $stages:expr;)* }
+    ) => {
+        row! {
+            /// A frame: the counters of the atemporal run, and GPU milliseconds, of each stage the minimum over the
+            /// temporal runs; `None` where nothing was timed.
+            "frames.csv" FrameRow {
+                /// Frame number in the recording.
+                frame: u32,
+                /// Its time in the recording, seconds.
+                #[serde(serialize_with = "cell::plain")]
+                time_s: f64,
+                $($(#[$counter_doc])* $counter: $type,)*
+                $($(#[$time_doc])* #[serde(serialize_with = "cell::optional_ms")] $time: Option<f64>,)*
+            }
+        }
+
+        impl FrameRow {
+            /// The row of a frame.
+            pub fn new(counts: &FrameCounts, minima: &StageMinima) -> Self {
+                fn get<T>(counts: &FrameCounts, count: fn(&FrameCounts) -> T) -> T {
+                    count(counts)
+                }
+                Self {
+                    frame: counts.frame,
+                    time_s: counts.time_s,
+                    $($counter: get(counts, $count),)*
+                    $($time: minima.sum(counts.frame, $stages),)*
+                }
+            }
+
+            /// The counters, by column.
+            pub fn counters(&self) -> impl Iterator<Item = (&'static str, u64)> {
+                [$((stringify!($counter), u64::from(self.$counter))),*].into_iter()
+            }
+
+            /// The times, by column, milliseconds.
+            pub fn times(&self) -> impl Iterator<Item = (&'static str, Option<f64>)> {
+                [$((stringify!($time), self.$time)),*].into_iter()
+            }
+        }
+    };
+}
+
+frame_row! {
+    counters {
+        /// Rendering cameras.
+        views: u32 = |counts| counts.views;
+        /// Grids: one a view for Indi, one for Encl.
+        clusterings: u32 = |counts| counts.clusterings.len() as u32;
+        /// Clusters of all grids.
+        clusters: u64 = FrameCounts::clusters;
+        /// Clusters with at least one visible fragment.
+        visible_clusters: u64 = FrameCounts::visible_clusters;
+        /// Sum of the lengths of all light lists.
+        light_indices: u64 = FrameCounts::light_indices;
+        /// Evaluations of one light for one fragment.
+        lighting_computations: u64 = |counts| counts.counters.lighting_computations;
+        /// Those closer than the light's radius R1.
+        needed_computations: u64 = |counts| counts.counters.needed_computations;
+        /// Sphere against cluster tests, of nodes of the hierarchy too.
+        intersection_tests: u64 = FrameCounts::intersection_tests;
+        /// Invocations of the shading pass that passed the depth test.
+        fragments_shaded: u64 = |counts| counts.counters.fragments_shaded;
+        /// Fragments whose cluster was not marked visible: none.
+        fragments_without_cluster: u64 = |counts| counts.counters.fragments_without_cluster;
+        /// Light indices that did not fit: none.
+        light_indices_dropped: u64 = FrameCounts::light_indices_dropped;
+        /// Visible clusters that did not fit: none.
+        visible_clusters_dropped: u64 = FrameCounts::visible_clusters_dropped;
+    }
+    times {
+        /// The whole frame.
+        gpu_ms_frame = &[stages::FRAME];
+        /// Everything that clusters, over all clusterings.
+        gpu_ms_cluster = &["frame/cluster"];
+        /// Depth pass and marking of visible clusters (Gelderen figure 6.8), over clusterings and views; of a method
+        /// without clusters, its depth pass.
+        gpu_ms_visibility = &["frame/depth", "frame/cluster/depth", "frame/cluster/mark"];
+        /// What it takes to know the lengths of the light lists, over clusterings.
+        gpu_ms_count_lights = &stages::COUNTING;
+        /// Writing of the light lists, over clusterings.
+        gpu_ms_assign_lights = &stages::ASSIGNING;
+        /// Shading, over views.
+        gpu_ms_shade = &["frame/shade"];
+    }
+}
+
+row! {
+    /// The grid and the counters of one clustering of one frame.
+    "clusterings.csv" ClusteringRow {
+        /// Frame number in the recording.
+        frame: u32,
+        /// Which clustering of the frame.
+        clustering: u32,
+        /// Clusters along x.
+        dx: u32,
+        /// Clusters along y.
+        dy: u32,
+        /// Clusters along z.
+        dz: u32,
+        /// Clusters with at least one visible fragment.
+        visible_clusters: u64,
+        /// Sum of the lengths of the light lists.
+        light_indices: u64,
+        /// Sphere against cluster tests.
+        intersection_tests: u64,
+        /// Hash over all lists in order, 16 hexadecimal digits.
+        lists_hash: String,
+    }
+}
+
+row! {
+    /// How many clusters and fragments fall into one bin. Of kind `lights_per_cluster`, `fragments` counts those in the
+    /// clusters of the bin; of kind `lights_per_fragment`, shaded fragments, and `clusters` those whose lists have that
+    /// length.
+    "histograms.csv" HistogramRow {
+        /// Frame number in the recording.
+        frame: u32,
+        /// Which clustering of the frame; which view, without clusters.
+        clustering: u32,
+        /// One of [`KINDS`].
+        kind: Cow<'static, str>,
+        /// How many lights or fragments.
+        bin: u32,
+        /// Clusters.
+        clusters: u64,
+        /// Fragments.
+        fragments: u64,
+    }
+}
+
+/// By how many lights clusters are counted in `histograms.csv`.
+pub const LIGHTS_PER_CLUSTER: &str = "lights_per_cluster";
+/// By how many fragments clusters are counted.
+pub const FRAGMENTS_PER_CLUSTER: &str = "fragments_per_cluster";
+/// By how many lights shaded fragments are counted.
+pub const LIGHTS_PER_FRAGMENT: &str = "lights_per_fragment";
+
+/// The kinds of `histograms.csv`, in their order.
+pub const KINDS: [&str; 3] = [LIGHTS_PER_CLUSTER, FRAGMENTS_PER_CLUSTER, LIGHTS_PER_FRAGMENT];
+
+row! {
+    /// One stage of one frame of one temporal run.
+    "timings.csv" TimingRow {
+        /// Temporal run, from 0.
+        run: u32,
+        /// Frame number in the recording.
+        frame: u32,
+        /// Path in the stage tree.
+        stage: String,
+        /// GPU time, milliseconds; `None` where the device has no timestamps.
+        #[serde(serialize_with = "cell::optional_ms")]
+        gpu_ms: Option<f64>,
+        /// CPU time spent recording it, milliseconds.
+        #[serde(serialize_with = "cell::ms")]
+        cpu_ms: f64,
+    }
+}
+
+/// How cells are written.
+pub(super) mod cell {
+    use serde::Serializer;
+
+    /// As short as the number allows.
+    pub fn plain<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(value)
+    }
+
+    /// Milliseconds to the nanosecond.
+    pub fn ms<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(&format_args!("{value:.6}"))
+    }
+
+    /// Milliseconds to the nanosecond, or an empty cell.
+    pub fn optional_ms<S: Serializer>(value: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
+        match value {
+            Some(value) => ms(value, serializer),
+            None => serializer.serialize_none(),
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! Claims of papers, checked on whatever data there are.
+//!
+//! A claim is a handful of comparisons, each with the numbers behind it. It holds where every comparison that could be
+//! made holds and all it needs were made; it does not hold where one fails. Criteria are fixed before any data.
+//! Runs by different ways of assignment are never compared with each other: the verdict is of the thesis's own way, or
+//! else the first there is, and claims that others bear on have theirs beside it.
+
+use super::results::{ResultSet, Run};
+use super::stats;
+use super::way::Way;
+use serde::Serialize;
+
+/// What the data say of a claim.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub enum Verdict {
+    /// Every comparison it needs was made, and holds.
+    #[serde(rename = "holds")]
+    Holds,
+    /// A comparison fails.
+    #[serde(rename = "does not hold")]
+    DoesNotHold,
+    /// None fails, and some could not be made.
+    #[serde(rename = "not enough data")]
+    NotEnoughData,
+}
+
+/// A claim with what was found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Claim {
+    /// The paper's initial and a number, in the paper's order: `G1`.
+    pub id: &'static str,
+    /// What is claimed.
+    pub claim: &'static str,
+    /// When it counts as holding.
+    pub criterion: &'static str,
+    /// What the data say.
+    pub verdict: Verdict,
+    /// The comparisons made.
+    pub evidence: Vec<Evidence>,
+    /// Runs that would be needed and are not there.
+    pub missing: Vec<String>,
+    /// How light lists were built in what it was judged by.
+    pub way: String,
+    /// The same by other ways.
+    pub other_ways: Vec<ByWay>,
+}
+
+/// What one further way of assignment says of a claim.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ByWay {
+    /// How light lists were built.
+    pub way: String,
+    /// What the data say.
+    pub verdict: Verdict,
+    /// The comparisons made.
+    pub evidence: Vec<Evidence>,
+    /// Runs that would be needed and are not there.
+    pub missing: Vec<String>,
+}
+
+/// One comparison.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Evidence {
+    /// Scene, recording, resolution.
+    pub setting: String,
+    /// What was compared, under which lighting.
+    pub comparison: String,
+    /// The numbers, by name.
+    pub numbers: Vec<Number>,
+    /// Whether it holds.
+    pub holds: bool,
+}
+
+/// A named number.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Number {
+    /// What it is.
+    pub name: String,
+    /// Its value.
+    pub value: f64,
+    /// `ms` or empty.
+    pub unit: &'static str,
+}
+
+/// What checking finds: comparisons and gaps.
+#[derive(Debug, Default)]
+pub struct Findings {
+    /// The comparisons made.
+    pub evidence: Vec<Evidence>,
+    /// Runs that would be needed and are not there.
+    pub missing: Vec<String>,
+}
+
+impl Findings {
+    /// Takes a comparison that `run` was part of.
+    pub fn compare(&mut self, run: &Run, comparison: String, numbers: Vec<Number>, holds: bool) {
+        self.evidence.push(Evidence { setting: run.setting.to_string(), comparison, numbers, holds });
+    }
+
+    /// Takes a gap, once.
+    pub fn lack(&mut self, what: impl Into<String>) {
+        let what = what.into();
+        if !self.missing.contains(&what) {
+            self.missing.push(what);
+        }
+    }
+
+    fn verdict(&self) -> Verdict {
+        if self.evidence.iter().any(|evidence| !evidence.holds) {
+            Verdict::DoesNotHold
+        } else if self.evidence.is_empty() || !self.missing.is_empty() {
+            Verdict::NotEnoughData
+        } else {
+            Verdict::Holds
+        }
+    }
+}
+
+/// A claim as its paper makes it.
+pub struct Stated {
+    /// The paper's initial and a number, in the paper's order: `G1`.
+    pub id: &'static str,
+    /// What is claimed.
+    pub claim: &'static str,
+    /// When it counts as holding.
+    pub criterion: &'static str,
+    /// Whether ways of assignment bear on it.
+    pub of_ways: bool,
+    /// What checks it.
+    pub find: fn(&ResultSet) -> Findings,
+}
+
+/// Checks claims, in their order.
+pub fn check<'a>(stated: impl IntoIterator<Item = &'a Stated>, set: &ResultSet) -> Vec<Claim> {
+    let mut sets: Vec<(Way, ResultSet)> =
+        set.ways().into_iter().map(|way| (way.clone(), set.by_way(way))).collect();
+    if sets.is_empty() {
+        sets.push(Default::default());
+    }
+    stated.into_iter().map(|stated| check_one(stated, &sets)).collect()
+}
+
+fn check_one(stated: &Stated, sets: &[(Way, ResultSet)]) -> Claim {
+    let by_way = |(way, set): &(Way, ResultSet)| {
+        let findings = (stated.find)(set);
+        let verdict = findings.verdict();
+        let Findings { evidence, missing } = findings;
+        ByWay { way: way.to_string(), verdict, evidence, missing }
+    };
+    let ByWay { way, verdict, evidence, missing } = by_way(&sets[0]);
+    let others = sets[1..].iter().filter(|_| stated.of_ways).map(by_way);
+    let other_ways = others.filter(|found| !found.evidence.is_empty()).collect();
+    let Stated { id, claim, criterion, .. } = *stated;
+    Claim { id, claim, criterion, verdict, evidence, missing, way, other_ways }
+}
+
+impl std::fmt::Display for Verdict {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            Self::Holds => "holds",
+            Self::DoesNotHold => "does not hold",
+            Self::NotEnoughData => "not enough data",
+        })
+    }
+}
+
+/// A count.
+pub fn number(name: impl Into<String>, value: f64) -> Number {
+    Number { name: name.into(), value, unit: "" }
+}
+
+/// A time.
+pub fn milliseconds(name: impl Into<String>, value: f64) -> Number {
+    Number { name: name.into(), value, unit: "ms" }
+}
+
+/// A metric's mean over the frames that `include` takes; `None` where there is none.
+pub fn mean_where(run: &Run, metric: &str, include: impl Fn(u32) -> bool) -> Option<f64> {
+    let points = run.frames.points(metric);
+    stats::mean(points.iter().filter(|point| include(point[0] as u32)).map(|point| point[1]))
+}
+
+/// A metric's mean over all frames.
+pub fn mean(run: &Run, metric: &str) -> Option<f64> {
+    mean_where(run, metric, |_| true)
+}

@@ -1,0 +1,35 @@
+//! M. van Gelderen, *Stereoscopic Clustered Light Shading* (TU Delft 2020): the figures of chapters 4 and 6 and of
+//! appendices A and C, and the claims of chapter 6.
+
+mod claims;
+mod figures;
+
+use super::paper::{Paper, Section};
+use super::results::Setting;
+
+/// The thesis.
+pub const PAPER: Paper = Paper {
+    name: "Gelderen 2020",
+    sections: &[
+        Section { heading: "Chapter 4: grids", anchor: "chapter-4", ids: &["4."] },
+        Section { heading: "Chapter 6: evaluation", anchor: "chapter-6", ids: &["6."] },
+        Section { heading: "Appendix A: attenuation", anchor: "appendix-a", ids: &["A."] },
+        Section { heading: "Appendix C: Sun Temple", anchor: "appendix-c", ids: &["C"] },
+    ],
+    figures: figures::all,
+    claims: &claims::CLAIMS,
+};
+
+/// Whether the scene is that of the thesis's appendix C; else it is that of chapter 6.
+fn is_sun_temple(setting: &Setting) -> bool {
+    let belongs = |name: &str| {
+        let name = name.to_ascii_lowercase();
+        name.contains("temple") || name.contains("suntem")
+    };
+    belongs(&setting.scene) || belongs(&setting.recording)
+}
+
+/// Whether the camera flies the thesis's path through the street, which looks at far geometry around frame 580.
+fn flies_the_street(setting: &Setting) -> bool {
+    setting.recording.to_ascii_lowercase().contains("bistro")
+}
