@@ -1,260 +1,196 @@
-//! The device's side of one clustering: its buffers, their sizes, their descriptor sets.
-//!
-//! ```text
-//! cluster_bits ─> word_ranks, visible_clusters ─> light_masks, list_lengths ─> list_offsets ─> light_indices
-//! ```
+//! The device's side of one clustering: its buffers and the descriptor sets that bind them.
 
 mod host_data;
-mod sizes;
 
 pub use host_data::{grid_data, gridless_data, view_data};
-pub use sizes::ClusteringSizes;
 
-use crate::Result;
-use crate::frame::{DrawBuffers, SLOTS};
-use crate::gpu_interface::{BUFFERS, ClusteringState, GridData, PixelData, TEXELS};
-use crate::layouts::{BUFFER_SET, BufferSet, DescriptorSets, Layouts, write_buffer_set};
+use crate::buffers::{BUFFER_COUNT, BufferName, BufferSet, ClusteringSizes, Owner, View, set};
+use crate::frame::SLOTS;
+use crate::layouts::{BoundBuffers, DescriptorSets, Pipeline};
 use crate::vk::{Buffer, Context, Memory, TexelView};
+use crate::{Error, Result};
 use ash::vk;
-use std::ops::Range;
+use std::ops::{Index, Range};
 use std::sync::Arc;
-
-/// Buffers that shaders fill.
-pub struct ClusteringBuffers {
-    /// Lights, or candidates, in clustering space: centre, radius.
-    pub light_spheres: Buffer,
-    /// A bit per cluster.
-    pub cluster_bits: Buffer,
-    /// Visible clusters before each word of bits.
-    pub word_ranks: Buffer,
-    /// Linear indices, ascending.
-    pub visible_clusters: Buffer,
-    /// Of the prefix sums.
-    pub block_sums: Buffer,
-    /// How many lights each list has.
-    pub list_lengths: Buffer,
-    /// Where each list begins, and the total.
-    pub list_offsets: Buffer,
-    /// The lists.
-    pub light_indices: Buffer,
-    /// [`crate::gpu_interface::ClusteringState`].
-    pub state: Buffer,
-    /// Sizes of indirect dispatches.
-    pub dispatches: Buffer,
-    /// 64-bit counters.
-    pub counters: Buffer,
-    /// Per visible cluster; counting alone.
-    pub visible_fragments: Buffer,
-    /// Histogram; counting alone.
-    pub lights_per_fragment: Buffer,
-    /// [`PixelData`] of one view.
-    pub pixels: Buffer,
-    /// Bits of the lists, a bit per light.
-    pub light_masks: Buffer,
-    /// (Key, candidate), two halves.
-    pub sort_items: Buffer,
-    /// Of the sort, by digit, then by block; or the groups of scatter's tiles.
-    pub digit_counts: Buffer,
-    /// `light_spheres` in the order of the hierarchy.
-    pub tree_spheres: Buffer,
-    /// Their numbers among the candidates; or the lights of scatter's groups.
-    pub tree_lights: Buffer,
-    /// The nodes of the hierarchy; or scatter's groups.
-    pub light_nodes: Buffer,
-    /// Blocks that hold visible clusters, a bit each.
-    pub block_bits: Buffer,
-    /// Lights that may meet a visible cluster, a bit each; then how many there are before each word.
-    pub light_bits: Buffer,
-    /// Those lights.
-    pub candidates: Buffer,
-}
-
-impl ClusteringBuffers {
-    fn new(context: &Arc<Context>, sizes: &ClusteringSizes) -> Result<Self> {
-        sizes.check(&context.limits)?;
-        let bytes = sizes.bytes();
-        let make = |name: &str| {
-            let size = bytes.iter().find(|(known, _)| *known == name).map_or(0, |b| b.1);
-            device_buffer(context, name, size)
-        };
-        let pixels = if sizes.counting { sizes.pixels * size_of::<PixelData>() as u64 } else { 0 };
-        Ok(Self {
-            light_spheres: make("light_spheres")?,
-            cluster_bits: make("cluster_bits")?,
-            word_ranks: make("word_ranks")?,
-            visible_clusters: make("visible_clusters")?,
-            block_sums: make("block_sums")?,
-            list_lengths: make("list_lengths")?,
-            list_offsets: make("list_offsets")?,
-            light_indices: make("light_indices")?,
-            state: state_buffer(context)?,
-            dispatches: make("dispatches")?,
-            counters: make("counters")?,
-            visible_fragments: make("visible_fragments")?,
-            lights_per_fragment: make("lights_per_fragment")?,
-            pixels: device_buffer(context, "pixels", pixels)?,
-            light_masks: make("light_masks")?,
-            sort_items: make("sort_items")?,
-            digit_counts: make("digit_counts")?,
-            tree_spheres: make("tree_spheres")?,
-            tree_lights: make("tree_lights")?,
-            light_nodes: make("light_nodes")?,
-            block_bits: make("block_bits")?,
-            light_bits: make("light_bits")?,
-            candidates: make("candidates")?,
-        })
-    }
-}
 
 /// Smallest buffer made, so that every binding has one.
 const MIN_BUFFER: u64 = 256;
 
-/// A device-local storage buffer that can be viewed as texels, copied, filled and dispatched from.
-pub fn device_buffer(context: &Arc<Context>, name: &str, size: u64) -> Result<Buffer> {
-    use vk::BufferUsageFlags as U;
-    let usage =
-        U::STORAGE_BUFFER | U::UNIFORM_TEXEL_BUFFER | U::TRANSFER_SRC | U::TRANSFER_DST | U::INDIRECT_BUFFER;
-    Buffer::new(context, name, size.max(MIN_BUFFER).next_multiple_of(4), usage, Memory::Device)
+/// A buffer of `size` bytes with the name and the uses that are declared of it.
+pub fn make_buffer(context: &Arc<Context>, name: BufferName, size: u64, memory: Memory) -> Result<Buffer> {
+    let info = name.info();
+    let size = if info.uniform.is_some() { size } else { size.max(MIN_BUFFER).next_multiple_of(4) };
+    Buffer::new(context, info.name, size, info.usage(), memory)
 }
 
-fn state_buffer(context: &Arc<Context>) -> Result<Buffer> {
-    use vk::BufferUsageFlags as U;
-    let usage = U::STORAGE_BUFFER | U::UNIFORM_BUFFER | U::TRANSFER_SRC;
-    Buffer::new(context, "state", size_of::<ClusteringState>() as u64, usage, Memory::Device)
+/// The buffers that have one owner, by their names.
+pub struct ClusteringBuffers([Option<Buffer>; BUFFER_COUNT]);
+
+impl ClusteringBuffers {
+    fn new(context: &Arc<Context>, sizes: &ClusteringSizes, owner: Owner, memory: Memory) -> Result<Self> {
+        let mut buffers = [const { None }; BUFFER_COUNT];
+        for name in BufferName::ALL.into_iter().filter(|name| name.info().owner == owner) {
+            let size = name.info().size.map_or(0, |size| size(sizes));
+            buffers[name as usize] = Some(make_buffer(context, name, size, memory)?);
+        }
+        Ok(Self(buffers))
+    }
 }
 
-/// Buffers that all clusterings share.
-pub struct SharedBuffers<'a> {
-    /// [`crate::gpu_interface::ViewData`] of all views, a buffer per frame in flight.
-    pub views: [&'a Buffer; SLOTS],
-    /// The frame's lights.
-    pub lights: &'a Buffer,
-    /// The scene's instances.
-    pub instances: &'a Buffer,
-    /// Its draw slots.
-    pub draw_slots: &'a Buffer,
-    /// Their counts and order, a buffer per frame in flight.
-    pub draw_order: [&'a Buffer; SLOTS],
-    /// What stage `cull` fills.
-    pub draws: &'a DrawBuffers,
+impl Index<BufferName> for ClusteringBuffers {
+    type Output = Buffer;
+
+    fn index(&self, name: BufferName) -> &Buffer {
+        self.0[name as usize].as_ref().unwrap_or_else(|| panic!("{name:?} is no clustering's"))
+    }
 }
+
+/// A buffer that all clusterings share, as each frame in flight has it.
+pub type SharedBuffer<'a> = (BufferName, [&'a Buffer; SLOTS]);
 
 /// One clustering on the device.
 pub struct Clustering {
     /// What shaders fill.
     pub buffers: ClusteringBuffers,
-    /// [`GridData`], mapped, one per frame in flight.
-    pub grids: [Buffer; SLOTS],
-    /// Depths between slices, mapped, as many.
-    pub slice_planes: [Buffer; SLOTS],
-    /// The storage buffers, one set per frame in flight.
-    pub sets: [vk::DescriptorSet; SLOTS],
+    /// What the host writes for each frame, one per frame in flight, mapped.
+    pub host: [ClusteringBuffers; SLOTS],
     /// The views that look lights up here.
     pub views: Range<usize>,
     /// Words of visibility bits of this frame's grid.
     pub word_count: u32,
     /// Most visible clusters that fit.
     pub visible_capacity: u32,
-    _sets: DescriptorSets,
-    _texels: [TexelView; TEXELS.len()],
+    handles: [[vk::Buffer; BUFFER_COUNT]; SLOTS],
+    sets: [Vec<vk::DescriptorSet>; SLOTS],
+    empty: BufferSet,
+    pools: Vec<DescriptorSets>,
+    texels: Texels,
 }
 
 impl Clustering {
-    /// Makes the buffers and the sets that bind them.
+    /// Makes the buffers, and for each of `pipelines` the sets that bind what it uses of them.
     pub fn new(
         context: &Arc<Context>,
-        layouts: &Layouts,
-        shared: &SharedBuffers,
+        shared: &[SharedBuffer],
         sizes: &ClusteringSizes,
         views: Range<usize>,
+        pipelines: &[Arc<Pipeline>],
     ) -> Result<Self> {
-        let buffers = ClusteringBuffers::new(context, sizes)?;
-        let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
-        let grid = || Buffer::new(context, "grid", size_of::<GridData>() as u64, usage, Memory::Upload);
-        let grids = [grid()?, grid()?];
-        let bytes = (4 * u64::from(sizes.slice_planes)).max(MIN_BUFFER);
-        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
-        let planes = || Buffer::new(context, "slice planes", bytes, usage, Memory::Upload);
-        let slice_planes = [planes()?, planes()?];
-        let texels = texels(context, shared, &buffers)?;
-        let sets = DescriptorSets::new(context, "clustering", layouts.buffers, &BUFFER_SET, SLOTS)?;
-        for (slot, (grid, planes)) in grids.iter().zip(&slice_planes).enumerate() {
-            let to = BufferSet {
-                buffers: storage(&buffers, shared, (slot, planes)),
-                texels: &texels,
-                uniforms: [shared.views[slot], grid, &buffers.state],
-            };
-            write_buffer_set(context, sets.sets[slot], &to);
+        sizes.check(&context.limits)?;
+        let buffers = ClusteringBuffers::new(context, sizes, Owner::Clustering, Memory::Device)?;
+        let host = || ClusteringBuffers::new(context, sizes, Owner::ClusteringFrame, Memory::Upload);
+        let host = [host()?, host()?];
+        let all = [all_buffers(&buffers, &host[0], shared, 0)?, all_buffers(&buffers, &host[1], shared, 1)?];
+        let mut texels = Texels { views: vec![], handles: [vk::BufferView::null(); BUFFER_COUNT] };
+        for name in BufferName::ALL {
+            if let Some(view) = name.info().texels {
+                let view = TexelView::new(context, all[0][name as usize], view.format())?;
+                texels.handles[name as usize] = view.handle;
+                texels.views.push(view);
+            }
         }
-        Ok(Self {
+        let mut this = Self {
+            handles: all.map(|all| all.map(|buffer| buffer.handle)),
             buffers,
-            grids,
-            slice_planes,
-            sets: [sets.sets[0], sets.sets[1]],
+            host,
             views,
             word_count: 0,
             visible_capacity: sizes.capacities.visible_clusters,
-            _sets: sets,
-            _texels: texels,
-        })
+            sets: [const { vec![] }; SLOTS],
+            empty: empty(sizes),
+            pools: vec![],
+            texels,
+        };
+        this.bind(context, pipelines)?;
+        Ok(this)
+    }
+
+    /// Makes the sets that bind what more pipelines use.
+    pub fn bind(&mut self, context: &Arc<Context>, pipelines: &[Arc<Pipeline>]) -> Result<()> {
+        let pool = allocate(context, pipelines)?;
+        let most = pipelines.iter().map(|pipeline| pipeline.number + 1).max().unwrap_or(0);
+        for (slot, sets) in self.sets.iter_mut().enumerate() {
+            sets.resize(most.max(sets.len()), vk::DescriptorSet::null());
+            for (pipeline, made) in pipelines.iter().zip(pool.sets.chunks(SLOTS)) {
+                context.name(made[slot], &pipeline.name);
+                write(context, made[slot], pipeline, &self.handles[slot], &self.texels.handles);
+                sets[pipeline.number] = made[slot];
+            }
+        }
+        self.pools.push(pool);
+        Ok(())
+    }
+
+    /// What passes bind in the frame in flight `slot`.
+    pub fn bound(&self, slot: usize) -> BoundBuffers<'_> {
+        BoundBuffers { handles: &self.handles[slot], sets: &self.sets[slot], empty: self.empty }
     }
 }
 
-/// In the order of [`TEXELS`].
-fn texels(
-    context: &Arc<Context>,
-    shared: &SharedBuffers,
-    b: &ClusteringBuffers,
-) -> Result<[TexelView; TEXELS.len()]> {
-    let view = |buffer, place: usize| TexelView::new(context, buffer, TEXELS[place].2);
-    Ok([
-        view(shared.lights, 0)?,
-        view(shared.instances, 1)?,
-        view(&b.light_spheres, 2)?,
-        view(&b.light_indices, 3)?,
-        view(&b.light_masks, 4)?,
-        view(&b.block_bits, 5)?,
-        view(&b.candidates, 6)?,
-        view(&b.tree_spheres, 7)?,
-        view(&b.light_nodes, 8)?,
-    ])
+/// The buffers that the way at hand leaves empty.
+fn empty(sizes: &ClusteringSizes) -> BufferSet {
+    let is_empty = |name: &BufferName| name.info().size.is_some_and(|size| size(sizes) == 0);
+    BufferName::ALL.into_iter().filter(is_empty).fold(BufferSet::EMPTY, |all, name| all | set(&[name]))
 }
 
-/// In the order of [`BUFFERS`].
-fn storage<'a>(
-    b: &'a ClusteringBuffers,
-    shared: &SharedBuffers<'a>,
-    (slot, slice_planes): (usize, &'a Buffer),
-) -> [&'a Buffer; BUFFERS.len()] {
-    [
-        &b.light_spheres,
-        &b.cluster_bits,
-        &b.word_ranks,
-        &b.visible_clusters,
-        &b.block_sums,
-        &b.list_lengths,
-        &b.list_offsets,
-        &b.light_indices,
-        &b.state,
-        &b.dispatches,
-        &b.counters,
-        &b.visible_fragments,
-        &b.lights_per_fragment,
-        &b.pixels,
-        shared.instances,
-        &b.light_masks,
-        &b.sort_items,
-        &b.digit_counts,
-        &b.tree_spheres,
-        &b.tree_lights,
-        &b.light_nodes,
-        &b.block_bits,
-        &b.light_bits,
-        &b.candidates,
-        shared.draw_slots,
-        shared.draw_order[slot],
-        &shared.draws.commands,
-        &shared.draws.drawn_instances,
-        slice_planes,
-    ]
+/// Views of buffers as texels, by the buffers' names.
+struct Texels {
+    views: Vec<TexelView>,
+    handles: [vk::BufferView; BUFFER_COUNT],
+}
+
+/// Every buffer of one frame in flight, in the order of their names.
+fn all_buffers<'a>(
+    buffers: &'a ClusteringBuffers,
+    host: &'a ClusteringBuffers,
+    shared: &[SharedBuffer<'a>],
+    slot: usize,
+) -> Result<[&'a Buffer; BUFFER_COUNT]> {
+    let found = |name: BufferName| {
+        let own = || buffers.0[name as usize].as_ref().or(host.0[name as usize].as_ref());
+        let given = shared.iter().find(|(known, _)| *known == name).map(|(_, buffers)| buffers[slot]);
+        given.or_else(own).ok_or_else(|| Error::Internal(format!("nobody makes buffer {}", name.info().name)))
+    };
+    let all = BufferName::ALL.into_iter().map(found).collect::<Result<Vec<_>>>()?;
+    Ok(std::array::from_fn(|name| all[name]))
+}
+
+/// Sets for the frames in flight of each pipeline, one behind the other.
+fn allocate(context: &Arc<Context>, pipelines: &[Arc<Pipeline>]) -> Result<DescriptorSets> {
+    let layouts: Vec<_> = pipelines.iter().flat_map(|pipeline| [pipeline.layout.buffers; SLOTS]).collect();
+    let kinds = View::ALL.map(|view| {
+        let uses = pipelines.iter().flat_map(|pipeline| pipeline.uses().views.keys());
+        (view.descriptor(), (SLOTS * uses.filter(|used| used.1 == view).count()) as u32)
+    });
+    DescriptorSets::of(context, "clustering", &layouts, &kinds)
+}
+
+/// Points what a pipeline uses to the whole of it.
+fn write(
+    context: &Context,
+    set: vk::DescriptorSet,
+    pipeline: &Pipeline,
+    handles: &[vk::Buffer; BUFFER_COUNT],
+    texels: &[vk::BufferView; BUFFER_COUNT],
+) {
+    let views = &pipeline.uses().views;
+    let info = |&(name, _): &(BufferName, View)| {
+        [vk::DescriptorBufferInfo::default().buffer(handles[name as usize]).range(vk::WHOLE_SIZE)]
+    };
+    let infos: Vec<_> = views.keys().map(info).collect();
+    let writes: Vec<_> = views
+        .keys()
+        .zip(&infos)
+        .map(|(&(name, view), info)| {
+            let write = vk::WriteDescriptorSet::default()
+                .dst_set(set)
+                .dst_binding(name.binding(view))
+                .descriptor_type(view.descriptor());
+            match view {
+                View::Storage | View::Uniform => write.buffer_info(info),
+                View::Texels => write.texel_buffer_view(std::slice::from_ref(&texels[name as usize])),
+            }
+        })
+        .collect();
+    unsafe { context.device.update_descriptor_sets(&writes, &[]) };
 }

@@ -7,8 +7,8 @@ use crate::config::Marking;
 use crate::draw_list::DrawList;
 use crate::draw_slots::{DrawSlots, SlotOrder};
 use crate::gpu_scene::GpuScene;
-use crate::layouts::Layouts;
-use crate::pass::{Recorder, ScopeName};
+use crate::layouts::BoundBuffers;
+use crate::pass::{DepthImage, Recorder, ScopeName};
 use crate::passes::{
     assign, cull, cull_lights, depth, hierarchy, lights, mark, readback, resolve, scan, shade,
 };
@@ -32,9 +32,9 @@ pub struct Layer {
 
 impl Layer {
     /// Its colour, for copies.
-    pub fn color(&self) -> vk::ImageSubresourceLayers {
+    pub fn color(&self) -> (vk::Image, vk::ImageSubresourceLayers) {
         let layers = vk::ImageSubresourceLayers::default().aspect_mask(vk::ImageAspectFlags::COLOR);
-        layers.base_array_layer(self.index).layer_count(1)
+        (self.image.handle, layers.base_array_layer(self.index).layer_count(1))
     }
 }
 
@@ -77,6 +77,13 @@ pub struct ViewTargets {
     pub depth_set: vk::DescriptorSet,
 }
 
+impl ViewTargets {
+    /// Its depth, as compute shaders sample it.
+    pub fn depth_image(&self) -> DepthImage {
+        DepthImage { image: self.depth.image.handle, set: self.depth_set }
+    }
+}
+
 /// What stage `cull` fills, a part for each view and one for all at once; shared by the frames in flight.
 pub struct DrawBuffers {
     /// [`crate::gpu_interface::DrawCommand`], as many in each part as there are slots.
@@ -102,8 +109,6 @@ pub enum Draws<'a> {
 
 /// Everything one frame is recorded from. All of it stays as it is until the frame has ended.
 pub struct Frame<'a> {
-    /// Descriptor set and pipeline layouts.
-    pub layouts: &'a Layouts,
     /// Pipelines of the method.
     pub pipelines: &'a Pipelines,
     /// What is drawn.
@@ -141,6 +146,11 @@ pub struct Frame<'a> {
 }
 
 impl Frame<'_> {
+    /// The buffers of a clustering.
+    pub fn buffers(&self, clustering: usize) -> BoundBuffers<'_> {
+        self.clusterings[clustering].bound(self.slot)
+    }
+
     /// The clustering in which a view looks its lights up.
     pub fn clustering_of_view(&self, view: usize) -> usize {
         self.clusterings

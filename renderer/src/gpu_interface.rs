@@ -1,24 +1,5 @@
-//! What host and shaders share: structs, buffers, constants, each declared once here and generated into
-//! `generated/gpu_interface.glsl`, which every shader includes.
-//!
-//! ```text
-//! views ─┬─> cluster_bits ──scan──> word_ranks, visible_clusters ─┐
-//! grid ──┘      (mark)                                            ├─> list_lengths ──scan──> list_offsets ───┐
-//! lights ─────> light_spheres ────────────────────────────────────┘   (count_lights)                         │
-//!               (transform_lights)             └──────────────────────────> light_indices (assign_lights) <──┘
-//! ```
-//!
-//! World space, on the device, is relative to the frame's origin (see [`crate::origin`]). `slice_planes`, which the host
-//! writes with `grid`, are the depths between the slices of a perspective grid, so that a fragment's slice and the planes
-//! that lights are tested against are the same numbers, whatever a device makes of logarithms.
-//!
-//! Where the device culls, `views`, `instances`, `draw_slots` and `draw_order` go to `draw_commands` and
-//! `drawn_instances` before all that (cull).
-//!
-//! All ways go to `list_lengths` by way of `light_masks` where these have room. Hierarchy and scatter first put the lights
-//! that may meet a visible cluster into `candidates` (cull_lights: `block_bits`, `light_bits`); then the hierarchy makes
-//! `sort_items`, `digit_counts`, `tree_spheres`, `tree_lights` and `light_nodes`, scatter `groups`, `tile_groups` and
-//! `group_lights`.
+//! What host and shaders share but buffers (see [`crate::buffers`]): structs and constants, each declared once here and
+//! generated into `generated/gpu_interface.glsl`, which every shader includes.
 
 mod structs;
 
@@ -29,110 +10,7 @@ pub use structs::{
 
 use crate::lights::Attenuation;
 use crate::measure::DeviceCounts;
-use ash::vk;
 use std::fmt::Write as _;
-
-/// A storage buffer of descriptor set 0; the discriminant is its binding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(u32)]
-#[allow(missing_docs)] // each is described by its row of BUFFERS
-pub enum Binding {
-    LightSpheres,
-    ClusterBits,
-    WordRanks,
-    VisibleClusters,
-    BlockSums,
-    ListLengths,
-    ListOffsets,
-    LightIndices,
-    State,
-    Dispatches,
-    Counters,
-    VisibleFragments,
-    LightsPerFragment,
-    Pixels,
-    Instances,
-    LightMasks,
-    SortItems,
-    DigitCounts,
-    TreeSpheres,
-    TreeLights,
-    LightNodes,
-    BlockBits,
-    LightBits,
-    Candidates,
-    DrawSlots,
-    DrawOrder,
-    DrawCommands,
-    DrawnInstances,
-    SlicePlanes,
-}
-
-/// Every buffer as (binding, access, GLSL member).
-pub const BUFFERS: [(Binding, &str, &str); 29] = [
-    (Binding::LightSpheres, "", "vec4 light_spheres[]"),
-    (Binding::ClusterBits, "", "uint cluster_bits[]"),
-    (Binding::WordRanks, "", "uint word_ranks[]"),
-    (Binding::VisibleClusters, "", "uint visible_clusters[]"),
-    (Binding::BlockSums, "", "uint block_sums[]"),
-    (Binding::ListLengths, "", "uint list_lengths[]"),
-    (Binding::ListOffsets, "", "uint list_offsets[]"),
-    (Binding::LightIndices, "", "uint light_indices[]"),
-    (Binding::State, "", "ClusteringState new_state"),
-    (Binding::Dispatches, "", "DispatchSize dispatches[]"),
-    (Binding::Counters, "", "uint counters[]"),
-    (Binding::VisibleFragments, "", "uint visible_fragments[]"),
-    (Binding::LightsPerFragment, "", "uint lights_per_fragment[]"),
-    (Binding::Pixels, "", "PixelData pixels[]"),
-    (Binding::Instances, "readonly", "InstanceData instances[]"),
-    (Binding::LightMasks, "", "uint light_masks[]"),
-    (Binding::SortItems, "", "uvec2 sort_items[]"),
-    (Binding::DigitCounts, "", "uint digit_counts[]"),
-    (Binding::TreeSpheres, "", "vec4 tree_spheres[]"),
-    (Binding::TreeLights, "", "uint tree_lights[]"),
-    (Binding::LightNodes, "", "LightNode light_nodes[]"),
-    (Binding::BlockBits, "", "uint block_bits[]"),
-    (Binding::LightBits, "", "uint light_bits[]"),
-    (Binding::Candidates, "", "Candidate candidates[]"),
-    (Binding::DrawSlots, "readonly", "DrawCommand draw_slots[]"),
-    (Binding::DrawOrder, "readonly", "DrawCounts draw_counts; uint draw_order[]"),
-    (Binding::DrawCommands, "", "DrawCommand draw_commands[]"),
-    (Binding::DrawnInstances, "", "uint drawn_instances[]"),
-    (Binding::SlicePlanes, "readonly", "float slice_planes[]"),
-];
-
-/// Views of buffers as arrays of texels, as (buffer, GLSL declaration, format); bound behind [`BUFFERS`].
-///
-/// What a loop reads with an index of each thread's own is read through these: llvmpipe fetches a texel for all lanes at
-/// once, where it takes storage buffers lane by lane and word by word.
-pub const TEXELS: [(&str, &str, vk::Format); 9] = [
-    ("lights", "textureBuffer light_texels", FLOATS),
-    ("instances", "textureBuffer instance_texels", FLOATS),
-    ("light_spheres", "textureBuffer sphere_texels", FLOATS),
-    ("light_indices", "utextureBuffer index_texels", WORD),
-    ("light_masks", "utextureBuffer mask_texels", WORD),
-    ("block_bits", "utextureBuffer block_texels", WORD),
-    ("candidates", "utextureBuffer candidate_texels", WORDS),
-    ("tree_spheres", "textureBuffer tree_texels", FLOATS),
-    ("light_nodes", "textureBuffer node_texels", FLOATS),
-];
-
-const FLOATS: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
-const WORD: vk::Format = vk::Format::R32_UINT;
-const WORDS: vk::Format = vk::Format::R32G32B32A32_UINT;
-
-/// What all threads read alike, as GLSL members of uniform buffers; bound behind [`TEXELS`].
-///
-/// Of a uniform buffer llvmpipe reads a word once for all lanes, also where the flow of control has parted.
-/// `state` is what earlier dispatches wrote to `new_state`.
-pub const UNIFORMS: [&str; 3] = ["ViewData views[MAX_VIEWS]", "GridData grid", "ClusteringState state"];
-
-/// What scatter keeps in buffers of the hierarchy, which never runs beside it: devices bind few buffers.
-const ALIASES: [(Binding, &str); 3] = [
-    (Binding::DigitCounts, "uint tile_groups[]"),
-    (Binding::TreeLights, "uint group_lights[]"),
-    (Binding::LightNodes, "ClusterGroup groups[]"),
-];
 
 /// Descriptor set of the storage buffers, of what views some of them as texels, and of the uniform buffers.
 pub const SET_BUFFERS: u32 = 0;
@@ -198,13 +76,10 @@ pub const SORT_DIGITS: u32 = 1 << SORT_BITS;
 /// Items that one thread of the sort takes.
 pub const SORT_BLOCK: u32 = 128;
 
-/// Bytes of a texel of four words.
-const TEXEL_BYTES: u32 = 16;
-
 /// How many 64-bit counters the atemporal run has: those of [`DeviceCounts`].
 pub const COUNTER_COUNT: usize = DeviceCounts::NAMES.len();
 
-const CONSTANTS: [(&str, u32); 31] = [
+const CONSTANTS: [(&str, u32); 28] = [
     ("SET_BUFFERS", SET_BUFFERS),
     ("SET_MATERIAL", SET_MATERIAL),
     ("SET_DEPTH", SET_DEPTH),
@@ -233,9 +108,6 @@ const CONSTANTS: [(&str, u32); 31] = [
     ("SORT_BITS", SORT_BITS),
     ("SORT_DIGITS", SORT_DIGITS),
     ("SORT_BLOCK", SORT_BLOCK),
-    ("LIGHT_TEXELS", size_of::<LightData>() as u32 / TEXEL_BYTES),
-    ("INSTANCE_TEXELS", size_of::<InstanceData>() as u32 / TEXEL_BYTES),
-    ("NODE_TEXELS", size_of::<LightNode>() as u32 / TEXEL_BYTES),
 ];
 
 /// Names of what shader variants choose among; the value is the position.
@@ -247,7 +119,7 @@ const VARIANT_NAMES: [&[&str]; 5] = [
     &["CULLING_CPU", "CULLING_GPU"],
 ];
 
-/// The include that declares all of this to shaders.
+/// The part of the include that declares all of this to shaders.
 pub fn glsl() -> String {
     let mut text = String::from(
         "#pragma once\n#extension GL_EXT_scalar_block_layout : require\n#extension GL_EXT_samplerless_texture_functions : require\n",
@@ -268,47 +140,22 @@ pub fn glsl() -> String {
         let _ = writeln!(text, "const uint ATTENUATION_{name} = {};", attenuation as u32);
     }
     for structure in [
-        ViewData::GLSL,
-        GridData::GLSL,
-        LightNode::GLSL,
-        LightData::GLSL,
-        MaterialData::GLSL,
-        InstanceData::GLSL,
-        DrawCommand::GLSL,
-        DrawCounts::GLSL,
-        ClusteringState::GLSL,
-        DispatchSize::GLSL,
-        PixelData::GLSL,
-        ClusterGroup::GLSL,
-        Candidate::GLSL,
+        ViewData::INFO,
+        GridData::INFO,
+        LightNode::INFO,
+        LightData::INFO,
+        MaterialData::INFO,
+        InstanceData::INFO,
+        DrawCommand::INFO,
+        DrawCounts::INFO,
+        ClusteringState::INFO,
+        DispatchSize::INFO,
+        PixelData::INFO,
+        ClusterGroup::INFO,
+        Candidate::INFO,
     ] {
-        text.push_str(structure);
+        text.push_str(&structure.glsl());
         text.push('\n');
-    }
-    for (binding, access, member) in BUFFERS {
-        let number = binding as u32;
-        let _ = writeln!(
-            text,
-            "layout(set = SET_BUFFERS, binding = {number}, scalar) {access} buffer Buffer{number} {{ {member}; }};"
-        );
-    }
-    for (position, (_, declaration, _)) in TEXELS.iter().enumerate() {
-        let number = BUFFERS.len() + position;
-        let _ = writeln!(text, "layout(set = SET_BUFFERS, binding = {number}) uniform {declaration};");
-    }
-    for (position, member) in UNIFORMS.iter().enumerate() {
-        let number = BUFFERS.len() + TEXELS.len() + position;
-        let _ = writeln!(
-            text,
-            "layout(set = SET_BUFFERS, binding = {number}, scalar) uniform Uniform{number} {{ {member}; }};"
-        );
-    }
-    for (binding, member) in ALIASES {
-        let number = binding as u32;
-        let _ = writeln!(
-            text,
-            "layout(set = SET_BUFFERS, binding = {number}, scalar) buffer Alias{number} {{ {member}; }};"
-        );
     }
     text.push_str("layout(push_constant) uniform PushConstants { uint view; uint step; } push;\n");
     text
@@ -335,12 +182,5 @@ mod tests {
             ClusterGroup::INFO,
             Candidate::INFO,
         ]);
-    }
-
-    #[test]
-    fn buffers_are_listed_in_the_order_of_their_bindings() {
-        for (position, (binding, ..)) in BUFFERS.iter().enumerate() {
-            assert_eq!(*binding as usize, position);
-        }
     }
 }

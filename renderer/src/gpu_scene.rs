@@ -1,6 +1,7 @@
 //! A scene on the device: vertices, indices, materials, instances, textures.
 
 use crate::Result;
+use crate::buffers::BufferName;
 use crate::draw_list::{Batch, Batches};
 use crate::draw_slots::DrawSlots;
 use crate::gpu_interface::{InstanceData, MaterialData};
@@ -49,8 +50,6 @@ impl GpuScene {
         scene: &Scene,
         (batches, slots): (&Batches, &DrawSlots),
     ) -> Result<Self> {
-        let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
-        let texels = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;
         let (materials, stride) = materials(context, &scene.materials)?;
         let placements = placements(scene, batches);
         let instances = instance_data(&placements, DVec3::ZERO);
@@ -77,11 +76,21 @@ impl GpuScene {
                 vk::BufferUsageFlags::INDEX_BUFFER,
                 &scene.indices,
             )?,
-            instances: Buffer::with_data(context, "instances", storage | texels, &instances)?,
+            instances: Buffer::with_data(
+                context,
+                "instances",
+                BufferName::Instances.info().usage(),
+                &instances,
+            )?,
             origin: DVec3::ZERO,
             reach: reach(&placements, DVec3::ZERO),
             placements,
-            draw_slots: Buffer::with_data(context, "draw slots", storage, &slots.slots)?,
+            draw_slots: Buffer::with_data(
+                context,
+                "draw_slots",
+                BufferName::DrawSlots.info().usage(),
+                &slots.slots,
+            )?,
             batches: batches.batches.clone(),
             material_sets: sets.sets.clone(),
             texture_sets: scene.materials.iter().map(TextureSet::of).collect(),

@@ -1,23 +1,18 @@
-//! The one pipeline layout: buffers, a material's textures, a view's depth; the numbers of view and step pushed.
+//! Descriptor set layouts and sets: of a pipeline's buffers, of a material's textures, of a view's depth.
 
-use crate::gpu_interface::{BUFFERS, TEXELS, UNIFORMS};
-use crate::vk::{Buffer, Context, TexelView};
+mod pipeline;
+mod uses;
+
+pub use pipeline::{BoundBuffers, Pipeline, PipelineLayout};
+pub use uses::Uses;
+
+use crate::vk::Context;
 use crate::{Error, Result};
 use ash::vk;
 use std::sync::Arc;
 
-/// Of view and step.
-const PUSH_BYTES: u32 = 8;
-
 /// Textures of a material; its data are bound behind them.
 pub const MATERIAL_TEXTURES: u32 = 5;
-
-/// What set [`crate::gpu_interface::SET_BUFFERS`] holds, in the order of its bindings.
-pub const BUFFER_SET: [(vk::DescriptorType, u32); 3] = [
-    (vk::DescriptorType::STORAGE_BUFFER, BUFFERS.len() as u32),
-    (vk::DescriptorType::UNIFORM_TEXEL_BUFFER, TEXELS.len() as u32),
-    (vk::DescriptorType::UNIFORM_BUFFER, UNIFORMS.len() as u32),
-];
 
 /// What set [`crate::gpu_interface::SET_MATERIAL`] holds.
 pub const MATERIAL_SET: [(vk::DescriptorType, u32); 2] = [
@@ -28,79 +23,64 @@ pub const MATERIAL_SET: [(vk::DescriptorType, u32); 2] = [
 /// What set [`crate::gpu_interface::SET_DEPTH`] holds.
 pub const DEPTH_SET: [(vk::DescriptorType, u32); 1] = [(vk::DescriptorType::SAMPLED_IMAGE, 1)];
 
-/// Descriptor set layouts and the pipeline layout over them.
+/// The descriptor set layouts that pipelines share.
 pub struct Layouts {
     context: Arc<Context>,
-    /// [`crate::gpu_interface::SET_BUFFERS`].
-    pub buffers: vk::DescriptorSetLayout,
     /// [`crate::gpu_interface::SET_MATERIAL`].
     pub material: vk::DescriptorSetLayout,
     /// [`crate::gpu_interface::SET_DEPTH`].
     pub depth: vk::DescriptorSetLayout,
-    /// All of them, with the push constants that [`crate::gpu_interface::glsl`] declares.
-    pub pipeline: vk::PipelineLayout,
 }
 
 impl Layouts {
-    /// Makes the layouts; the device must allow that many storage buffers per stage.
+    /// Makes the layouts.
     pub fn new(context: &Arc<Context>) -> Result<Self> {
-        let needed = BUFFERS.len() as u32;
-        let have = context.limits.max_per_stage_storage_buffers;
-        if have < needed {
-            return Err(Error::Device(format!(
-                "{} binds {have} storage buffers per shader stage, {needed} are needed: choose another device",
-                context.info.name
-            )));
-        }
-        let buffers = set_layout(context, &BUFFER_SET, "buffers")?;
-        let material = set_layout(context, &MATERIAL_SET, "material textures")?;
-        let depth = set_layout(context, &DEPTH_SET, "depth image")?;
-        let sets = [buffers, material, depth];
-        let push = [vk::PushConstantRange::default().stage_flags(vk::ShaderStageFlags::ALL).size(PUSH_BYTES)];
-        let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets).push_constant_ranges(&push);
-        let pipeline = unsafe { context.device.create_pipeline_layout(&info, None) }
-            .map_err(|e| Error::Device(format!("cannot create the pipeline layout: {e}")))?;
-        context.name(pipeline, "pipeline layout");
-        Ok(Self { context: context.clone(), buffers, material, depth, pipeline })
+        let material = set_layout(context, &dense(&MATERIAL_SET), "material textures")?;
+        let depth = set_layout(context, &dense(&DEPTH_SET), "depth image")?;
+        Ok(Self { context: context.clone(), material, depth })
     }
 }
 
 impl Drop for Layouts {
     fn drop(&mut self) {
-        let device = &self.context.device;
-        unsafe {
-            device.destroy_pipeline_layout(self.pipeline, None);
-            for set in [self.buffers, self.material, self.depth] {
-                device.destroy_descriptor_set_layout(set, None);
-            }
+        for set in [self.material, self.depth] {
+            unsafe { self.context.device.destroy_descriptor_set_layout(set, None) };
         }
     }
 }
 
-fn set_layout(
-    context: &Context,
-    kinds: &[(vk::DescriptorType, u32)],
-    name: &str,
-) -> Result<vk::DescriptorSetLayout> {
-    let of_bindings = kinds.iter().flat_map(|&(kind, count)| std::iter::repeat_n(kind, count as usize));
-    let bindings: Vec<_> = (0..)
-        .zip(of_bindings)
-        .map(|(binding, kind)| {
+/// A binding: its number, what it holds, the stages that read it.
+type SetBinding = (u32, vk::DescriptorType, vk::ShaderStageFlags);
+
+/// Bindings one behind the other, for all stages.
+fn dense(kinds: &[(vk::DescriptorType, u32)]) -> Vec<SetBinding> {
+    let kinds = kinds.iter().flat_map(|&(kind, count)| std::iter::repeat_n(kind, count as usize));
+    (0..).zip(kinds).map(|(binding, kind)| (binding, kind, vk::ShaderStageFlags::ALL)).collect()
+}
+
+fn set_layout(context: &Context, bindings: &[SetBinding], name: &str) -> Result<vk::DescriptorSetLayout> {
+    let bindings: Vec<_> = bindings
+        .iter()
+        .map(|&(binding, kind, stages)| {
             vk::DescriptorSetLayoutBinding::default()
                 .binding(binding)
                 .descriptor_type(kind)
                 .descriptor_count(1)
-                .stage_flags(vk::ShaderStageFlags::ALL)
+                .stage_flags(stages)
         })
         .collect();
     let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
     let layout = unsafe { context.device.create_descriptor_set_layout(&info, None) }
-        .map_err(|e| Error::Device(format!("cannot create the descriptor set layout '{name}': {e}")))?;
+        .map_err(|e| failed("descriptor set layout", name, e))?;
     context.name(layout, name);
     Ok(layout)
 }
 
-/// A pool of sets of one layout, all allocated at once and freed together.
+fn failed(what: &str, name: &str, result: vk::Result) -> Error {
+    Error::Device(format!("cannot create the {what} '{name}': {result}"))
+}
+
+/// A pool of sets, all allocated at once and freed together.
 pub struct DescriptorSets {
     context: Arc<Context>,
     pool: vk::DescriptorPool,
@@ -117,17 +97,27 @@ impl DescriptorSets {
         kinds: &[(vk::DescriptorType, u32)],
         count: usize,
     ) -> Result<Self> {
-        let failed = |e: vk::Result| Error::Device(format!("cannot allocate {count} descriptor sets: {e}"));
         let count = count.max(1);
-        let size =
-            |&(ty, each): &(_, u32)| vk::DescriptorPoolSize { ty, descriptor_count: each * count as u32 };
-        let sizes: Vec<_> = kinds.iter().map(size).collect();
-        let info = vk::DescriptorPoolCreateInfo::default().max_sets(count as u32).pool_sizes(&sizes);
+        let kinds: Vec<_> = kinds.iter().map(|&(kind, each)| (kind, each * count as u32)).collect();
+        Self::of(context, name, &vec![layout; count], &kinds)
+    }
+
+    /// A set of each layout, together with so many descriptors of each kind, named `name` and their position.
+    pub fn of(
+        context: &Arc<Context>,
+        name: &str,
+        layouts: &[vk::DescriptorSetLayout],
+        kinds: &[(vk::DescriptorType, u32)],
+    ) -> Result<Self> {
+        let failed =
+            |e: vk::Result| Error::Device(format!("cannot allocate {} descriptor sets: {e}", layouts.len()));
+        let size = |&(ty, descriptor_count): &(_, u32)| vk::DescriptorPoolSize { ty, descriptor_count };
+        let sizes: Vec<_> = kinds.iter().filter(|kind| kind.1 > 0).map(size).collect();
+        let info = vk::DescriptorPoolCreateInfo::default().max_sets(layouts.len() as u32).pool_sizes(&sizes);
         let pool = unsafe { context.device.create_descriptor_pool(&info, None) }.map_err(failed)?;
         context.name(pool, name);
         let mut this = Self { context: context.clone(), pool, sets: vec![] };
-        let layouts = vec![layout; count];
-        let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&layouts);
+        let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(layouts);
         this.sets = unsafe { context.device.allocate_descriptor_sets(&info) }.map_err(failed)?;
         for (index, &set) in this.sets.iter().enumerate() {
             context.name(set, &format!("{name} {index}"));
@@ -140,41 +130,4 @@ impl Drop for DescriptorSets {
     fn drop(&mut self) {
         unsafe { self.context.device.destroy_descriptor_pool(self.pool, None) };
     }
-}
-
-/// What the bindings of a buffer set are pointed to.
-pub struct BufferSet<'a> {
-    /// In the order of [`BUFFERS`].
-    pub buffers: [&'a Buffer; BUFFERS.len()],
-    /// In the order of [`TEXELS`].
-    pub texels: &'a [TexelView; TEXELS.len()],
-    /// In the order of [`UNIFORMS`].
-    pub uniforms: [&'a Buffer; UNIFORMS.len()],
-}
-
-/// The whole of a buffer, for a descriptor.
-fn whole(buffer: &Buffer) -> [vk::DescriptorBufferInfo; 1] {
-    [vk::DescriptorBufferInfo::default().buffer(buffer.handle).offset(0).range(vk::WHOLE_SIZE)]
-}
-
-/// Points every binding of a buffer set to the whole of what it names.
-pub fn write_buffer_set(context: &Context, set: vk::DescriptorSet, to: &BufferSet) {
-    let (buffers, uniforms) = (to.buffers.map(whole), to.uniforms.map(whole));
-    let views = to.texels.each_ref().map(|view| [view.handle]);
-    let write = |binding: usize| vk::WriteDescriptorSet::default().dst_set(set).dst_binding(binding as u32);
-    let storage = buffers.iter().enumerate().map(|(position, info)| {
-        write(position).descriptor_type(vk::DescriptorType::STORAGE_BUFFER).buffer_info(info)
-    });
-    let texel = views.iter().enumerate().map(|(position, view)| {
-        write(BUFFERS.len() + position)
-            .descriptor_type(vk::DescriptorType::UNIFORM_TEXEL_BUFFER)
-            .texel_buffer_view(view)
-    });
-    let uniform = uniforms.iter().enumerate().map(|(position, info)| {
-        write(BUFFERS.len() + TEXELS.len() + position)
-            .descriptor_type(vk::DescriptorType::UNIFORM_BUFFER)
-            .buffer_info(info)
-    });
-    let writes: Vec<_> = storage.chain(texel).chain(uniform).collect();
-    unsafe { context.device.update_descriptor_sets(&writes, &[]) };
 }

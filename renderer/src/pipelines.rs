@@ -16,12 +16,12 @@ use crate::Result;
 use crate::assign::Assigner;
 use crate::config::Culling;
 use crate::draw_list::SurfaceKind;
-use crate::layouts::Layouts;
+use crate::layouts::{Layouts, Pipeline, PipelineLayout};
 use crate::methods::MethodSpec;
 use crate::scene::{TextureSlot, Vertex};
 use crate::texture_sets::TextureSet;
 use crate::views::ViewSet;
-use crate::vk::{self as gpu, Context, GraphicsDesc, Pipeline, ShaderLibrary};
+use crate::vk::{self as gpu, Context, GraphicsDesc, ShaderLibrary};
 use ash::vk;
 use std::collections::{BTreeMap, BTreeSet};
 use std::mem::offset_of;
@@ -113,9 +113,15 @@ pub struct Pipelines {
     pub pixel_maps: Arc<Pipeline>,
     clustered: Option<ClusteredPipelines>,
     accelerated: Option<AcceleratedPipelines>,
+    all: Vec<Arc<Pipeline>>,
 }
 
 impl Pipelines {
+    /// All of them, each once.
+    pub fn all(&self) -> &[Arc<Pipeline>] {
+        &self.all
+    }
+
     /// Culls on the device; only its pass asks.
     pub fn cull(&self) -> &Pipeline {
         self.cull.as_ref().expect("stage cull runs where the device culls")
@@ -140,6 +146,8 @@ pub struct PipelineStore {
     views: ViewSet,
     texture_sets: [BTreeSet<TextureSet>; 3],
     made: BTreeMap<String, Arc<Pipeline>>,
+    /// Those asked for since [`Self::take_asked`], by their numbers.
+    asked: BTreeMap<usize, Arc<Pipeline>>,
 }
 
 /// How a graphics pipeline uses depth and colour.
@@ -163,12 +171,40 @@ impl PipelineStore {
         shaders: ShaderLibrary,
         (views, texture_sets): (ViewSet, [BTreeSet<TextureSet>; 3]),
     ) -> Self {
-        let (context, layouts) = (context.clone(), layouts.clone());
-        Self { context, layouts, shaders, views, texture_sets, made: BTreeMap::new() }
+        Self {
+            context: context.clone(),
+            layouts: layouts.clone(),
+            shaders,
+            views,
+            texture_sets,
+            made: BTreeMap::new(),
+            asked: BTreeMap::new(),
+        }
+    }
+
+    /// The pipelines asked for since the last call, each once.
+    fn take_asked(&mut self) -> Vec<Arc<Pipeline>> {
+        std::mem::take(&mut self.asked).into_values().collect()
+    }
+
+    /// The pipeline of `key`, by `make` where there is none yet, from the number of the new one.
+    fn once(
+        &mut self,
+        key: String,
+        make: impl FnOnce(&Self, usize) -> Result<Pipeline>,
+    ) -> Result<Arc<Pipeline>> {
+        let pipeline = match self.made.get(&key) {
+            Some(made) => made.clone(),
+            None => Arc::new(make(self, self.made.len())?),
+        };
+        self.made.insert(key, pipeline.clone());
+        self.asked.insert(pipeline.number, pipeline.clone());
+        Ok(pipeline)
     }
 
     /// All pipelines of a variant.
     pub fn pipelines(&mut self, variant: &Variant) -> Result<Pipelines> {
+        self.asked.clear();
         let clustered = match variant.method {
             MethodSpec::AllLights => None,
             MethodSpec::Clustered { .. } => Some(self.clustered(variant)?),
@@ -181,7 +217,7 @@ impl PipelineStore {
             Culling::Cpu => None,
             Culling::Gpu => Some(self.compute("geometry/cull.comp", &Defines(vec![]))?),
         };
-        Ok(Pipelines {
+        let mut pipelines = Pipelines {
             cull,
             depth_opaque: self.graphics(variant, None, Output::Depth)?,
             depth_masked: self.graphics(variant, Some("geometry/alpha_test.frag"), Output::Depth)?,
@@ -189,7 +225,10 @@ impl PipelineStore {
             pixel_maps: self.compute("measure/pixel_maps.comp", &variant.defines())?,
             clustered,
             accelerated,
-        })
+            all: vec![],
+        };
+        pipelines.all = self.take_asked();
+        Ok(pipelines)
     }
 
     fn shade(&mut self, variant: &Variant) -> Result<[BTreeMap<TextureSet, Arc<Pipeline>>; 3]> {
@@ -281,15 +320,23 @@ impl PipelineStore {
     }
 
     fn compute(&mut self, path: &str, defines: &Defines) -> Result<Arc<Pipeline>> {
-        let key = format!("{path} {defines:?}");
-        if let Some(made) = self.made.get(&key) {
-            return Ok(made.clone());
-        }
-        let spirv = self.shaders.compile(path, &defines.0)?;
-        let pipeline =
-            Arc::new(gpu::compute_pipeline(&self.context, self.layouts.pipeline, &spirv, path, &[])?);
-        self.made.insert(key, pipeline.clone());
-        Ok(pipeline)
+        self.once(format!("{path} {defines:?}"), |store, number| {
+            let spirv = store.shaders.compile(path, &defines.0)?;
+            let stages = [(vk::ShaderStageFlags::COMPUTE, spirv.as_slice())];
+            let layout = PipelineLayout::new(&store.context, &store.layouts, path, &stages)?;
+            let pipeline = gpu::compute_pipeline(&store.context, layout.handle, &spirv, path, &[])?;
+            Ok(Pipeline::new(pipeline, layout, path, number))
+        })
+    }
+
+    /// A graphics pipeline, whose `desc` has its shaders already.
+    fn rasterizing(&self, desc: &GraphicsDesc, name: &str, number: usize) -> Result<Pipeline> {
+        let vertex = (vk::ShaderStageFlags::VERTEX, desc.vertex);
+        let fragment = desc.fragment.map(|words| (vk::ShaderStageFlags::FRAGMENT, words));
+        let stages: Vec<_> = [vertex].into_iter().chain(fragment).collect();
+        let layout = PipelineLayout::new(&self.context, &self.layouts, name, &stages)?;
+        let pipeline = gpu::graphics_pipeline(&self.context, layout.handle, desc, name)?;
+        Ok(Pipeline::new(pipeline, layout, name, number))
     }
 
     fn graphics(
@@ -304,39 +351,35 @@ impl PipelineStore {
             .with("VIEWS", views)
             .with("MIRRORS", u32::from(self.views.mirrors));
         let key = format!("{fragment:?} {output:?} {:?} {defines:?}", variant.attenuation);
-        if let Some(made) = self.made.get(&key) {
-            return Ok(made.clone());
-        }
-        let vertex = self.shaders.compile("geometry/surface.vert", &defines.0)?;
-        let code = fragment.map(|path| self.shaders.compile(path, &defines.0)).transpose()?;
-        let attributes =
-            vertex_attributes(varyings(fragment.is_some(), output), textures(fragment.is_some(), output));
-        let spec = [(0, variant.attenuation as u32)];
-        let shades = matches!(output, Output::Shades(..));
-        let desc = GraphicsDesc {
-            vertex: &vertex,
-            fragment: code.as_deref().map(Vec::as_slice),
-            spec: if shades { &spec } else { &[] },
-            bindings: &[vk::VertexInputBindingDescription {
-                binding: 0,
-                stride: size_of::<Vertex>() as u32,
-                input_rate: vk::VertexInputRate::VERTEX,
-            }],
-            attributes: &attributes,
-            dynamic_facing: true,
-            depth_write: output == Output::Depth,
-            depth_compare: Some(depth_compare(output)),
-            depth_format: Some(DEPTH_FORMAT),
-            color_format: shades.then_some(COLOR_FORMAT),
-            blend: matches!(output, Output::Shades(SurfaceKind::Transparent, _)),
-            samples: vk::SampleCountFlags::from_raw(variant.samples),
-            sample_shading: variant.per_sample() && output != Output::Depth,
-            ..Default::default()
-        };
-        let name = fragment.unwrap_or("geometry/surface.vert");
-        let pipeline = Arc::new(gpu::graphics_pipeline(&self.context, self.layouts.pipeline, &desc, name)?);
-        self.made.insert(key, pipeline.clone());
-        Ok(pipeline)
+        self.once(key, |store, number| {
+            let vertex = store.shaders.compile("geometry/surface.vert", &defines.0)?;
+            let code = fragment.map(|path| store.shaders.compile(path, &defines.0)).transpose()?;
+            let attributes =
+                vertex_attributes(varyings(fragment.is_some(), output), textures(fragment.is_some(), output));
+            let spec = [(0, variant.attenuation as u32)];
+            let shades = matches!(output, Output::Shades(..));
+            let desc = GraphicsDesc {
+                vertex: &vertex,
+                fragment: code.as_deref().map(Vec::as_slice),
+                spec: if shades { &spec } else { &[] },
+                bindings: &[vk::VertexInputBindingDescription {
+                    binding: 0,
+                    stride: size_of::<Vertex>() as u32,
+                    input_rate: vk::VertexInputRate::VERTEX,
+                }],
+                attributes: &attributes,
+                dynamic_facing: true,
+                depth_write: output == Output::Depth,
+                depth_compare: Some(depth_compare(output)),
+                depth_format: Some(DEPTH_FORMAT),
+                color_format: shades.then_some(COLOR_FORMAT),
+                blend: matches!(output, Output::Shades(SurfaceKind::Transparent, _)),
+                samples: vk::SampleCountFlags::from_raw(variant.samples),
+                sample_shading: variant.per_sample() && output != Output::Depth,
+                ..Default::default()
+            };
+            store.rasterizing(&desc, fragment.unwrap_or("geometry/surface.vert"), number)
+        })
     }
 }
 

@@ -30,7 +30,7 @@ impl Placement {
             world_from_object: matrix.as_mat4().to_cols_array_2d(),
             box_center: (self.bounds.center - origin).as_vec3().to_array(),
             box_half_extent: self.bounds.half_extent.as_vec3().to_array(),
-            unused: [0.0; 2],
+            ..Default::default()
         }
     }
 

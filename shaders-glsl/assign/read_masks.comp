@@ -11,7 +11,7 @@ const uint LIGHTS_AT_ONCE = 8u;
 
 uint word_of(uint visible, uint word)
 {
-    return word < state.mask_words ? texelFetch(mask_texels, int(visible * state.mask_words + word)).x : 0u;
+    return word < state.mask_words ? read_mask(visible * state.mask_words + word) : 0u;
 }
 
 // The lowest bit set among four words, counted through, which is cleared.

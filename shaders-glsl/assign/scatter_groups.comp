@@ -19,7 +19,7 @@ void main()
         cells_of_group[thread] = groups[first + thread].cells;
     barrier();
     uint number = gl_GlobalInvocationID.x;
-    uvec3 cells = texelFetch(candidate_texels, int(min(number, state.candidates - 1u))).yzw;
+    uvec3 cells = read_candidate(min(number, state.candidates - 1u)).cells;
     uint met = 0u;
     [[unroll]] for (uint i = 0u; i < GROUP_CHUNK; ++i)
         met |= uint(overlap(cells, cells_of_group[i])) << i;

@@ -23,7 +23,7 @@ Hull hull_of_lights(uint first)
     uint items = (grid.sort_passes - 1u & 1u) * grid.light_count;
     for (uint i = first; i < min(first + TREE_WIDTH, state.candidates); ++i) {
         uint number = sort_items[items + i].y;
-        vec4 sphere = texelFetch(sphere_texels, int(number));
+        vec4 sphere = read_sphere(number);
         tree_spheres[i] = sphere;
         tree_lights[i] = number;
         include(hull, sphere.xyz, sphere.xyz, sphere.w);
@@ -56,5 +56,8 @@ void main()
     vec3 half_extent = 0.5 * (hull.high - hull.low);
     vec3 reach = abs(centre) + half_extent;
     float slack = NODE_SLACK * (max(max(reach.x, reach.y), reach.z) + hull.radius);
-    light_nodes[node_index(depth, place)] = LightNode(centre, hull.radius + slack, half_extent + slack, 0.0);
+    uint node = node_index(depth, place);
+    light_nodes[node].centre = centre;
+    light_nodes[node].radius = hull.radius + slack;
+    light_nodes[node].half_extent = half_extent + slack;
 }

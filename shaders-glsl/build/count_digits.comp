@@ -33,7 +33,7 @@ void main()
     uint end = min((block + 1u) * SORT_BLOCK, state.candidates);
     for (uint i = block * SORT_BLOCK; i < end; ++i) {
         if (push.step == 0u)
-            sort_items[sort_source() + i] = uvec2(light_key(texelFetch(sphere_texels, int(i))), i);
+            sort_items[sort_source() + i] = uvec2(light_key(read_sphere(i)), i);
         ++digit_counts[digit_count(sort_items[sort_source() + i].x, block)];
     }
 }

@@ -18,7 +18,7 @@ void main()
     float colatitude = radians(180.0) * float(corner.y) / float(SPHERE_RINGS);
     vec3 normal = vec3(sin(colatitude) * sin(longitude), cos(colatitude), sin(colatitude) * cos(longitude));
     ViewData view = views[push.view];
-    LightData light = light_of(gl_InstanceIndex);
+    LightData light = read_light(gl_InstanceIndex);
     vec3 position = light.position + light.r1 * normal;
     out_normal = normal;
     out_towards_camera = view.world_from_view[3].xyz - position;

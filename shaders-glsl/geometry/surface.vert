@@ -48,12 +48,9 @@ uint drawn_instance(uint place)
 #endif
 }
 
-// As in InstanceData.
 mat4 world_from_object_of(uint instance)
 {
-    int texel = int(INSTANCE_TEXELS * instance);
-    return mat4(texelFetch(instance_texels, texel), texelFetch(instance_texels, texel + 1),
-                texelFetch(instance_texels, texel + 2), texelFetch(instance_texels, texel + 3));
+    return read_instance(instance).world_from_object;
 }
 
 void main()

@@ -55,7 +55,7 @@ void mark_block(uvec3 block)
 
 uint blocks_of(uvec2 block, uint level)
 {
-    return texelFetch(block_texels, int(block_column(block, level))).x;
+    return read_block(block_column(block, level));
 }
 
 // Whether some block between two holds a visible cluster; true also where one near them does.

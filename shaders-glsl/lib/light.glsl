@@ -5,15 +5,6 @@
 
 layout(constant_id = 0) const uint ATTENUATION = ATTENUATION_PHY_RED_2;
 
-LightData light_of(uint light)
-{
-    int texel = int(LIGHT_TEXELS * light);
-    vec4 place = texelFetch(light_texels, texel);
-    vec4 colour = texelFetch(light_texels, texel + 1);
-    vec4 rest = texelFetch(light_texels, texel + 2);
-    return LightData(place.xyz, place.w, colour.rgb, colour.w, rest.x, rest.y, vec2(0.0));
-}
-
 // a(d) as the table has it, for R0 <= d <= R1.
 float table_attenuation(LightData light, float d)
 {

@@ -7,8 +7,8 @@
 // The same bits wherever it is called: all ways of assignment test the same numbers.
 vec4 sphere_of_light(uint light)
 {
-    vec4 place = texelFetch(light_texels, int(LIGHT_TEXELS * light));
-    precise vec3 centre = (grid.clustering_from_world * vec4(place.xyz, 1.0)).xyz;
-    precise float radius = place.w + max(grid.slack, grid.slack_per_radius * place.w);
+    LightData place = read_light(light);
+    precise vec3 centre = (grid.clustering_from_world * vec4(place.position, 1.0)).xyz;
+    precise float radius = place.r1 + max(grid.slack, grid.slack_per_radius * place.r1);
     return vec4(centre, radius);
 }

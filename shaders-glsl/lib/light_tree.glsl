@@ -24,9 +24,7 @@ uint node_index(uint depth, uint place)
 
 LightNode light_node(uint depth, uint place)
 {
-    int texel = int(NODE_TEXELS * node_index(depth, place));
-    vec4 sphere = texelFetch(node_texels, texel);
-    return LightNode(sphere.xyz, sphere.w, texelFetch(node_texels, texel + 1).xyz, 0.0);
+    return read_node(node_index(depth, place));
 }
 
 // Whether some light under the node may meet the cell. Never false where the test of one of them is true.

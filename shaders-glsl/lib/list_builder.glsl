@@ -13,7 +13,7 @@ uint light_of_number(uint number)
 #if ASSIGN == ASSIGN_BRUTE
     return number;
 #else
-    return texelFetch(candidate_texels, int(number)).x;
+    return read_candidate(number).light;
 #endif
 }
 

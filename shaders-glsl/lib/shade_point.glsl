@@ -29,7 +29,7 @@ vec3 shade_lights(Surface surface, LightCursor cursor)
         [[unroll]] for (uint i = 0u; i < AT_ONCE; ++i) {
             if (position + i < cursor.end) {
                 ++evaluated;
-                needed += uint(shade_light(light_of(light_at(position + i)), surface, radiance));
+                needed += uint(shade_light(read_light(light_at(position + i)), surface, radiance));
             }
         }
     }

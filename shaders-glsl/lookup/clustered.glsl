@@ -27,5 +27,5 @@ bool find_lights(ViewData view, vec2 pixel, float depth, out LightCursor cursor)
 
 uint light_at(uint position)
 {
-    return texelFetch(index_texels, int(position)).x;
+    return read_index(position);
 }

@@ -179,7 +179,7 @@ fn no_light_that_touches_a_fragment_is_lost() {
             ..eye.config(directory.path(), &lights)
         };
         let runs = run(config);
-        let needed = |run: &Run| run.counts[0].needed_computations;
+        let needed = |run: &Run| run.counts[0].counters.needed_computations;
         assert!(needed(&runs[0]) > 300, "{eye:?}: {} computations are needed", needed(&runs[0]));
         for run in &runs[1..] {
             assert_eq!(needed(run), needed(&runs[0]), "{eye:?}, {} lost lights", run.planned.name);

@@ -1,7 +1,7 @@
 //! What the host writes for each frame: grids and views as shaders read them.
 
-use super::ClusteringSizes;
 use crate::assign;
+use crate::buffers::ClusteringSizes;
 use crate::culling::ViewPlanes;
 use crate::geometry::{ClusterSpace, Grid};
 use crate::gpu_interface::{GridData, ViewData};

@@ -73,22 +73,20 @@ gpu_struct! {
 }
 
 gpu_struct! {
-    /// A node of the light hierarchy, two texels of four floats: the centres of its lights lie in the box.
-    pub struct LightNode {
+    /// A node of the light hierarchy: the centres of its lights lie in the box.
+    pub struct LightNode in texels {
         /// Clustering space, metres.
         pub centre: [f32; 3],
         /// Largest radius, metres.
         pub radius: f32,
         /// Metres.
         pub half_extent: [f32; 3],
-        /// Fills the last texel.
-        pub unused: f32,
     }
 }
 
 gpu_struct! {
-    /// A point light in world space, three texels of four floats.
-    pub struct LightData {
+    /// A point light in world space.
+    pub struct LightData in texels {
         /// Metres.
         pub position: [f32; 3],
         /// Influence radius, metres.
@@ -101,8 +99,6 @@ gpu_struct! {
         pub cutoff: f32,
         /// Near radius, metres.
         pub r0: f32,
-        /// Fills the last texel.
-        pub unused: [f32; 2],
     }
 }
 
@@ -133,16 +129,14 @@ gpu_struct! {
 }
 
 gpu_struct! {
-    /// A primitive's place in the world, six texels of four floats.
-    pub struct InstanceData {
+    /// A primitive's place in the world.
+    pub struct InstanceData in texels {
         /// Affine.
         pub world_from_object: [[f32; 4]; 4],
         /// Middle of the box around it, world space, metres.
         pub box_center: [f32; 3],
         /// Half the size of that box, metres.
         pub box_half_extent: [f32; 3],
-        /// Fills the last texel.
-        pub unused: [f32; 2],
     }
 }
 
@@ -211,8 +205,8 @@ gpu_struct! {
 }
 
 gpu_struct! {
-    /// A light that may meet a visible cluster, a texel of four words.
-    pub struct Candidate {
+    /// A light that may meet a visible cluster.
+    pub struct Candidate in texels {
         /// Which.
         pub light: u32,
         /// Lowest and highest cell that it may meet, an axis each in two halves.

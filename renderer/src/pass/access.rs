@@ -166,12 +166,12 @@ impl Tracker {
         &mut self,
         device: &ash::Device,
         commands: vk::CommandBuffer,
-        accesses: &[Access],
+        accesses: impl IntoIterator<Item = Access>,
     ) {
         self.buffer_barriers.clear();
         self.image_barriers.clear();
         for access in accesses {
-            self.add(access);
+            self.add(&access);
         }
         if self.buffer_barriers.is_empty() && self.image_barriers.is_empty() {
             return;

@@ -162,7 +162,7 @@ impl Drop for Timestamps {
 
 /// Records one frame: every pass gets its label, its timestamp scope and its barriers here.
 pub struct Recorder<'a> {
-    /// For what passes record themselves.
+    /// For drawing the scene; all other passes have a call of their own.
     pub context: &'a Context,
     commands: vk::CommandBuffer,
     /// Whether commands may have been recorded since the last timestamp.
@@ -212,7 +212,7 @@ impl<'a> Recorder<'a> {
         recorder
     }
 
-    /// The frame's command buffer, to record to.
+    /// The frame's command buffer, to record to; for drawing the scene alone.
     pub fn commands(&self) -> vk::CommandBuffer {
         self.stirred.set(true);
         self.commands
@@ -244,7 +244,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// Waits for what `accesses` need; the commands that follow may then do what they say.
-    pub fn access(&mut self, accesses: &[Access]) {
+    pub fn access(&mut self, accesses: impl IntoIterator<Item = Access>) {
         self.tracker.0.synchronise(&self.context.device, self.commands(), accesses);
     }
 

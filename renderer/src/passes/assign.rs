@@ -10,30 +10,29 @@
 //! Where the masks have no room the device sizes the dispatches otherwise: pairs are found twice, counted first and then
 //! written, and the lists are sorted.
 
-use super::scan::{dispatch_indirect, group_tiles};
+use super::scan::group_tiles;
 use crate::assign::Assigner;
-use crate::clustering::ClusteringBuffers;
+use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::frame::Frame;
 use crate::gpu_interface::{
     ASSIGN_GROUP, DISPATCH_GROUPS, DISPATCH_LISTS, DISPATCH_MASKED, DISPATCH_MEET, DISPATCH_MEET_AGAIN,
     DISPATCH_UNMASKED,
 };
-use crate::pass::{Access, Recorder, Use};
-use crate::vk::{Buffer, Pipeline};
-use ash::vk;
+use crate::layouts::Pipeline;
+use crate::pass::{Dispatch, Push, Recorder, Size};
 
 /// Lights into the clustering camera's space.
 pub fn transform_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
     r.scope("transform_lights", |r| {
-        let b = &frame.clusterings[clustering].buffers;
-        r.access(&[
-            Access::buffer(frame.lights.handle, Use::ComputeRead),
-            Access::buffer(b.light_spheres.handle, Use::ComputeWrite),
-        ]);
-        let pipeline = &frame.pipelines.clustered().transform_lights;
-        frame.bind_clustering(r, vk::PipelineBindPoint::COMPUTE, pipeline, clustering);
-        let groups = frame.light_count.div_ceil(ASSIGN_GROUP);
-        unsafe { r.context.device.cmd_dispatch(r.commands(), groups, 1, 1) };
+        r.dispatch(&Dispatch {
+            pipeline: &frame.pipelines.clustered().transform_lights,
+            buffers: frame.buffers(clustering),
+            size: Size::threads(frame.light_count, ASSIGN_GROUP),
+            reads: set(&[B::Lights]),
+            writes: set(&[B::LightSpheres]),
+            depth: None,
+            push: Push::default(),
+        });
     });
 }
 
@@ -41,17 +40,17 @@ pub fn transform_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
 pub fn count_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
     r.scope("count_lights", |r| {
         let pipelines = frame.pipelines.clustered();
-        per_list(r, frame, clustering, (&pipelines.clear_lists, DISPATCH_LISTS));
+        let (reads, writes) = (set(&[B::State]), set(&[B::LightMasks, B::ListLengths]));
+        indirect(r, frame, clustering, (&pipelines.clear_lists, DISPATCH_LISTS), (reads, writes));
         if frame.assigner == Assigner::Scatter {
-            let [count, list] = &frame.pipelines.accelerated().scatter_groups;
-            to_groups(r, frame, clustering, count);
-            group_tiles(r, frame, clustering);
-            to_groups(r, frame, clustering, list);
+            to_groups(r, frame, clustering);
         }
-        meet(r, frame, clustering, (&pipelines.count_lights, DISPATCH_MEET));
+        let writes = set(&[B::LightMasks, B::ListLengths, B::Counters]);
+        meet(r, frame, clustering, (&pipelines.count_lights, DISPATCH_MEET), (reads, writes));
         // Brute force writes whole words of bits, and counts as it does.
         if frame.assigner != Assigner::Brute {
-            per_list(r, frame, clustering, (&pipelines.read_masks[0], DISPATCH_MASKED));
+            let (reads, writes) = (set(&[B::State, B::LightMasks]), set(&[B::ListLengths]));
+            indirect(r, frame, clustering, (&pipelines.read_masks[0], DISPATCH_MASKED), (reads, writes));
         }
     });
 }
@@ -67,70 +66,62 @@ pub fn assign_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
 /// Writes the lists: off their bits, in order, or else pair by pair, in any order.
 pub(crate) fn write_lists(r: &mut Recorder, frame: &Frame, clustering: usize) {
     let pipelines = frame.pipelines.clustered();
-    per_list(r, frame, clustering, (&pipelines.read_masks[1], DISPATCH_MASKED));
-    meet(r, frame, clustering, (&pipelines.assign_lights, DISPATCH_MEET_AGAIN));
+    let (offsets, indices) = (set(&[B::State, B::ListOffsets]), set(&[B::LightIndices]));
+    let reads = offsets | set(&[B::LightMasks, B::Candidates]);
+    indirect(r, frame, clustering, (&pipelines.read_masks[1], DISPATCH_MASKED), (reads, indices));
+    let writes = indices | set(&[B::ListLengths]);
+    meet(r, frame, clustering, (&pipelines.assign_lights, DISPATCH_MEET_AGAIN), (offsets, writes));
 }
 
 /// Sorts lists that were written in any order.
 pub(crate) fn sort_lists(r: &mut Recorder, frame: &Frame, clustering: usize) {
-    per_list(r, frame, clustering, (&frame.pipelines.clustered().sort_lists, DISPATCH_UNMASKED));
+    let reads = set(&[B::State, B::ListOffsets, B::Candidates]);
+    let sort = (&*frame.pipelines.clustered().sort_lists, DISPATCH_UNMASKED);
+    indirect(r, frame, clustering, sort, (reads, set(&[B::LightIndices])));
 }
 
-/// Takes candidates to groups of visible clusters: counts them, or lists them.
-fn to_groups(r: &mut Recorder, frame: &Frame, clustering: usize, pipeline: &Pipeline) {
-    let b = &frame.clusterings[clustering].buffers;
-    indirect(
-        r,
-        frame,
-        clustering,
-        (pipeline, DISPATCH_GROUPS),
-        (&[&b.candidates], &[&b.light_nodes, &b.tree_lights]),
-    );
+/// Takes candidates to groups of visible clusters: counts them, and lists them.
+fn to_groups(r: &mut Recorder, frame: &Frame, clustering: usize) {
+    let [count, list] = &frame.pipelines.accelerated().scatter_groups;
+    let (reads, groups) = (set(&[B::State, B::Candidates]), set(&[B::Groups]));
+    indirect(r, frame, clustering, (count, DISPATCH_GROUPS), (reads, groups));
+    group_tiles(r, frame, clustering);
+    let lists = groups | set(&[B::GroupLights]);
+    indirect(r, frame, clustering, (list, DISPATCH_GROUPS), (reads, lists));
 }
 
-/// Finds the pairs of light and visible cluster that meet.
-fn meet(r: &mut Recorder, frame: &Frame, clustering: usize, dispatch: (&Pipeline, u32)) {
-    let b = &frame.clusterings[clustering].buffers;
-    let reads = [
-        &b.light_spheres,
-        &b.visible_clusters,
-        &b.list_offsets,
-        &b.candidates,
-        &b.digit_counts,
-        &b.tree_spheres,
-        &b.tree_lights,
-        &b.light_nodes,
-    ];
-    let writes = [&b.light_masks, &b.list_lengths, &b.light_indices, &b.counters];
-    indirect(r, frame, clustering, dispatch, (&reads, &writes));
+/// Finds the pairs of light and visible cluster that meet, by what the way at hand has made of the lights.
+fn meet(
+    r: &mut Recorder,
+    frame: &Frame,
+    clustering: usize,
+    dispatch: (&Pipeline, u32),
+    (reads, writes): (BufferSet, BufferSet),
+) {
+    let lights = match frame.assigner {
+        Assigner::Brute => set(&[B::LightSpheres]),
+        Assigner::Hierarchy => set(&[B::TreeSpheres, B::TreeLights, B::LightNodes]),
+        Assigner::Scatter => set(&[B::LightSpheres, B::Groups, B::TileGroups, B::GroupLights]),
+    };
+    let reads = reads | lights | set(&[B::VisibleClusters]);
+    indirect(r, frame, clustering, dispatch, (reads, writes));
 }
 
-/// Runs a pipeline that works on each list by itself.
-fn per_list(r: &mut Recorder, frame: &Frame, clustering: usize, dispatch: (&Pipeline, u32)) {
-    let b = &frame.clusterings[clustering].buffers;
-    let writes = [&b.light_masks, &b.list_lengths, &b.light_indices];
-    indirect(r, frame, clustering, dispatch, (&[&b.list_offsets, &b.candidates], &writes));
-}
-
-/// Runs a pipeline with the size in a slot of the dispatches, after what it reads and what it writes (and may read).
-pub(super) fn indirect(
+/// Runs a pipeline with the size in a slot of the dispatches.
+fn indirect(
     r: &mut Recorder,
     frame: &Frame,
     clustering: usize,
     (pipeline, slot): (&Pipeline, u32),
-    (reads, writes): (&[&Buffer], &[&Buffer]),
+    (reads, writes): (BufferSet, BufferSet),
 ) {
-    let ClusteringBuffers { state, dispatches, .. } = &frame.clusterings[clustering].buffers;
-    r.access(&[
-        Access::buffer(state.handle, Use::ComputeRead),
-        Access::buffer(dispatches.handle, Use::Indirect),
-    ]);
-    for buffer in reads {
-        r.access(&[Access::buffer(buffer.handle, Use::ComputeRead)]);
-    }
-    for buffer in writes {
-        r.access(&[Access::buffer(buffer.handle, Use::ComputeWrite)]);
-    }
-    frame.bind_clustering(r, vk::PipelineBindPoint::COMPUTE, pipeline, clustering);
-    dispatch_indirect(r, dispatches.handle, slot);
+    r.dispatch(&Dispatch {
+        pipeline,
+        buffers: frame.buffers(clustering),
+        size: Size::Indirect(slot),
+        reads,
+        writes,
+        depth: None,
+        push: Push::default(),
+    });
 }

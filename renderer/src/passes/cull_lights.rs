@@ -6,48 +6,51 @@
 //! ranks, lights ──list_candidates──> candidates, light_spheres
 //! ```
 
-use super::assign::indirect;
 use super::scan::rank_lights;
+use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::frame::Frame;
 use crate::gpu_interface::{ASSIGN_GROUP, DISPATCH_LISTS};
-use crate::pass::{Access, Recorder, Use};
-use crate::vk::Pipeline;
-use ash::vk;
+use crate::layouts::Pipeline;
+use crate::pass::{Dispatch, Push, Recorder, Size};
 
 /// Drops the lights whose cells hold nothing visible.
 pub fn cull_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
     r.scope("cull_lights", |r| {
-        let b = &frame.clusterings[clustering].buffers;
         let pipelines = frame.pipelines.accelerated();
-        r.access(&[Access::buffer(b.block_bits.handle, Use::TransferWrite)]);
-        unsafe { r.context.device.cmd_fill_buffer(r.commands(), b.block_bits.handle, 0, vk::WHOLE_SIZE, 0) };
-        let writes = [&b.block_bits, &b.light_nodes];
-        indirect(
-            r,
-            frame,
-            clustering,
-            (&pipelines.mark_blocks, DISPATCH_LISTS),
-            (&[&b.visible_clusters], &writes),
-        );
-        r.access(&[
-            Access::buffer(frame.lights.handle, Use::ComputeRead),
-            Access::buffer(b.block_bits.handle, Use::ComputeRead),
-            Access::buffer(b.light_bits.handle, Use::ComputeWrite),
-        ]);
-        per_word(r, frame, clustering, &pipelines.cull_lights);
+        r.clear(&frame.clusterings[clustering].buffers[B::BlockBits]);
+        r.dispatch(&Dispatch {
+            pipeline: &pipelines.mark_blocks,
+            buffers: frame.buffers(clustering),
+            size: Size::Indirect(DISPATCH_LISTS),
+            reads: set(&[B::State, B::VisibleClusters]),
+            writes: set(&[B::BlockBits, B::Groups]),
+            depth: None,
+            push: Push::default(),
+        });
+        let lights = set(&[B::Lights]);
+        let (blocks, bits) = (set(&[B::BlockBits]), set(&[B::LightBits]));
+        per_word(r, frame, clustering, &pipelines.cull_lights, (lights | blocks, bits));
         rank_lights(r, frame, clustering);
-        r.access(&[
-            Access::buffer(b.light_bits.handle, Use::ComputeRead),
-            Access::buffer(b.light_spheres.handle, Use::ComputeWrite),
-            Access::buffer(b.candidates.handle, Use::ComputeWrite),
-        ]);
-        per_word(r, frame, clustering, &pipelines.list_candidates);
+        let candidates = set(&[B::LightSpheres, B::Candidates]);
+        per_word(r, frame, clustering, &pipelines.list_candidates, (lights | bits, candidates));
     });
 }
 
 /// Runs a pipeline with a thread for each word of light bits.
-fn per_word(r: &Recorder, frame: &Frame, clustering: usize, pipeline: &Pipeline) {
-    frame.bind_clustering(r, vk::PipelineBindPoint::COMPUTE, pipeline, clustering);
-    let groups = frame.light_count.div_ceil(32).div_ceil(ASSIGN_GROUP);
-    unsafe { r.context.device.cmd_dispatch(r.commands(), groups, 1, 1) };
+fn per_word(
+    r: &mut Recorder,
+    frame: &Frame,
+    clustering: usize,
+    pipeline: &Pipeline,
+    (reads, writes): (BufferSet, BufferSet),
+) {
+    r.dispatch(&Dispatch {
+        pipeline,
+        buffers: frame.buffers(clustering),
+        size: Size::threads(frame.light_count.div_ceil(32), ASSIGN_GROUP),
+        reads,
+        writes,
+        depth: None,
+        push: Push::default(),
+    });
 }

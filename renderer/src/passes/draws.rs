@@ -1,29 +1,211 @@
-//! Drawing the scene: what every geometry pass shares.
+//! Drawing the scene, a call a pass: what is attached, what is drawn with which pipelines, what their shaders touch.
 
+use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::draw_list::{DrawRun, SurfaceKind};
 use crate::frame::{Draws, Eyes, Frame, Layer};
-use crate::gpu_interface::{DrawCommand, SET_BUFFERS, SET_MATERIAL};
-use crate::pass::{Access, Recorder, Use};
+use crate::gpu_interface::{DrawCommand, SET_MATERIAL};
+use crate::layouts::{BoundBuffers, Pipeline};
+use crate::pass::{Access, Declared, Push, Recorder, Use};
 use crate::texture_sets::TextureSet;
-use crate::vk::{Buffer, Pipeline};
+use crate::vk::Buffer;
 use ash::vk;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Opens dynamic rendering over whole views and sets the viewport (flipped, so that +Y stays up).
-pub fn begin_rendering(
-    r: &mut Recorder,
-    frame: &Frame,
-    eyes: Eyes,
-    color: Option<&vk::RenderingAttachmentInfo>,
-    depth: &vk::RenderingAttachmentInfo,
-) {
-    if let Draws::Indirect { buffers, .. } = &frame.draws {
-        r.access(&[
-            Access::buffer(buffers.commands.handle, Use::Indirect),
-            Access::buffer(buffers.drawn_instances.handle, Use::VertexRead),
-        ]);
+/// How a pass uses the depth of its views.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DepthUse {
+    /// Cleared to far, tested and written.
+    Write,
+    /// Tested alone.
+    Test,
+}
+
+/// How a pass uses the colour of its views.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ColorUse {
+    /// Cleared to a linear colour and alpha.
+    Clear([f32; 4]),
+    /// Drawn over.
+    Keep,
+}
+
+/// What draws surfaces of a kind.
+#[derive(Clone, Copy)]
+pub enum SurfacePipelines<'a> {
+    /// The same for all.
+    One(&'a Pipeline),
+    /// By the textures of the material.
+    ByTextures(&'a BTreeMap<TextureSet, Arc<Pipeline>>),
+}
+
+impl<'a> SurfacePipelines<'a> {
+    /// All of them.
+    fn all(self) -> impl Iterator<Item = &'a Pipeline> + Clone {
+        let (one, by_textures) = match self {
+            Self::One(pipeline) => (Some(pipeline), None),
+            Self::ByTextures(pipelines) => (None, Some(pipelines)),
+        };
+        one.into_iter()
+            .chain(by_textures.into_iter().flat_map(|all| all.values().map(|pipeline| &**pipeline)))
     }
+
+    /// That for materials with these textures.
+    fn of(self, textures: TextureSet) -> &'a Pipeline {
+        match self {
+            Self::One(pipeline) => pipeline,
+            Self::ByTextures(pipelines) => &pipelines[&textures],
+        }
+    }
+}
+
+/// A pass that draws surfaces of the scene.
+#[derive(Clone, Copy)]
+pub struct SurfacePass<'a> {
+    /// The views it draws.
+    pub eyes: Eyes,
+    /// What becomes of their colour; `None` where it is left alone.
+    pub color: Option<ColorUse>,
+    /// What becomes of their depth.
+    pub depth: DepthUse,
+    /// What is drawn, in order.
+    pub draws: &'a [(SurfaceKind, SurfacePipelines<'a>)],
+    /// Buffers that are read alone, besides the draws themselves.
+    pub reads: BufferSet,
+    /// Buffers that are written, and perhaps read.
+    pub writes: BufferSet,
+}
+
+/// Draws surfaces of the scene.
+pub fn surfaces(r: &mut Recorder, frame: &Frame, pass: &SurfacePass) {
+    let drawn = pass.draws.iter().any(|&(kind, _)| frame.draws_any(pass.eyes, kind));
+    if !drawn && pass.color.is_none() && pass.depth == DepthUse::Test {
+        return;
+    }
+    let attached = Attached { eyes: pass.eyes, color: pass.color, depth: pass.depth };
+    let buffers = frame.buffers(frame.clustering_of_view(pass.eyes.first()));
+    let (mut reads, mut commands) = (pass.reads, None);
+    if let Draws::Indirect { buffers, .. } = &frame.draws {
+        reads = reads | set(&[B::DrawnInstances]);
+        commands = Some(Access::buffer(buffers.commands.handle, Use::Indirect));
+    }
+    let pipelines = pass.draws.iter().flat_map(|draw| draw.1.all());
+    let declared = Declared { reads, writes: pass.writes };
+    r.prepare(pipelines, &buffers, declared, attached.accesses(frame).into_iter().chain([commands]));
+    begin_rendering(r, frame, &attached);
+    for &(kind, pipelines) in pass.draws {
+        draw(r, frame, pass.eyes, (kind, pipelines));
+    }
+    unsafe { r.context.device.cmd_end_rendering(r.commands()) };
+}
+
+/// Instances of a shape that a vertex shader makes, drawn over a picture.
+#[derive(Clone, Copy)]
+pub struct Overlay<'a> {
+    /// What draws it.
+    pub pipeline: &'a Pipeline,
+    /// Vertices of an instance.
+    pub vertices: u32,
+    /// Instances.
+    pub count: u32,
+    /// Data of each instance, where the shader reads any.
+    pub instances: Option<&'a Buffer>,
+    /// Whether it is closed, so that the faces away from the camera are left out.
+    pub closed: bool,
+    /// Buffers that are read.
+    pub reads: BufferSet,
+}
+
+/// Draws over a view's cleared colour, behind what its depth shows.
+pub fn overlays(r: &mut Recorder, frame: &Frame, view: usize, overlays: &[Overlay]) {
+    let attached =
+        Attached { eyes: Eyes::One(view), color: Some(ColorUse::Clear([0.0; 4])), depth: DepthUse::Test };
+    let buffers = frame.buffers(frame.clustering_of_view(view));
+    for overlay in overlays {
+        let declared = Declared { reads: overlay.reads, writes: BufferSet::EMPTY };
+        r.prepare([overlay.pipeline], &buffers, declared, []);
+    }
+    r.access(attached.accesses(frame).into_iter().flatten());
+    begin_rendering(r, frame, &attached);
+    for overlay in overlays {
+        r.bind(vk::PipelineBindPoint::GRAPHICS, overlay.pipeline, &buffers, Push::view(view));
+        let (device, commands) = (&r.context.device, r.commands());
+        if let Some(instances) = overlay.instances {
+            unsafe { device.cmd_bind_vertex_buffers(commands, 0, &[instances.handle], &[0]) };
+        }
+        if overlay.closed {
+            set_facing(r, frame.mirrored[view], false);
+        }
+        unsafe { device.cmd_draw(commands, overlay.vertices, overlay.count, 0, 0) };
+    }
+    unsafe { r.context.device.cmd_end_rendering(r.commands()) };
+}
+
+/// What a pass draws into.
+struct Attached {
+    eyes: Eyes,
+    color: Option<ColorUse>,
+    depth: DepthUse,
+}
+
+impl Attached {
+    /// What it does with the images.
+    fn accesses(&self, frame: &Frame) -> [Option<Access>; 2] {
+        let target = &frame.targets[self.eyes.first()];
+        let (color, depth) = (target.color.image.handle, target.depth.image.handle);
+        let usage = if self.depth == DepthUse::Write { Use::Depth } else { Use::DepthTest };
+        [
+            self.color.map(|_| Access::image(color, vk::ImageAspectFlags::COLOR, Use::Color)),
+            Some(Access::image(depth, vk::ImageAspectFlags::DEPTH, usage)),
+        ]
+    }
+
+    /// The attachment of a view's image: its layer, or all layers for all views.
+    fn attachment(&self, layer: &Layer) -> vk::RenderingAttachmentInfo<'static> {
+        vk::RenderingAttachmentInfo::default().image_view(match self.eyes {
+            Eyes::One(_) => layer.view,
+            Eyes::All => layer.image.view,
+        })
+    }
+
+    fn color(&self, frame: &Frame) -> Option<vk::RenderingAttachmentInfo<'static>> {
+        let (load, float32) = match self.color? {
+            ColorUse::Clear(color) => (vk::AttachmentLoadOp::CLEAR, color),
+            ColorUse::Keep => (vk::AttachmentLoadOp::LOAD, [0.0; 4]),
+        };
+        let attachment = self
+            .attachment(&frame.targets[self.eyes.first()].color)
+            .image_layout(vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL)
+            .load_op(load)
+            .store_op(vk::AttachmentStoreOp::STORE)
+            .clear_value(vk::ClearValue { color: vk::ClearColorValue { float32 } });
+        Some(attachment)
+    }
+
+    fn depth(&self, frame: &Frame) -> vk::RenderingAttachmentInfo<'static> {
+        let (layout, load, store) = match self.depth {
+            DepthUse::Write => (
+                vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL,
+                vk::AttachmentLoadOp::CLEAR,
+                vk::AttachmentStoreOp::STORE,
+            ),
+            DepthUse::Test => (
+                vk::ImageLayout::DEPTH_READ_ONLY_OPTIMAL,
+                vk::AttachmentLoadOp::LOAD,
+                vk::AttachmentStoreOp::NONE,
+            ),
+        };
+        let far = vk::ClearDepthStencilValue { depth: 0.0, stencil: 0 };
+        self.attachment(&frame.targets[self.eyes.first()].depth)
+            .image_layout(layout)
+            .load_op(load)
+            .store_op(store)
+            .clear_value(vk::ClearValue { depth_stencil: far })
+    }
+}
+
+/// Opens dynamic rendering over whole views and sets the viewport (flipped, so that +Y stays up).
+fn begin_rendering(r: &Recorder, frame: &Frame, attached: &Attached) {
     let [width, height] = frame.resolution;
     let area = vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } };
     let viewport = vk::Viewport {
@@ -34,13 +216,12 @@ pub fn begin_rendering(
         min_depth: 0.0,
         max_depth: 1.0,
     };
-    let mut info = vk::RenderingInfo::default()
+    let (color, depth) = (attached.color(frame), attached.depth(frame));
+    let info = vk::RenderingInfo::default()
         .render_area(area)
-        .layer_count(frame.view_count(eyes))
-        .depth_attachment(depth);
-    if let Some(color) = color {
-        info = info.color_attachments(std::slice::from_ref(color));
-    }
+        .layer_count(frame.view_count(attached.eyes))
+        .color_attachments(color.as_slice())
+        .depth_attachment(&depth);
     let device = &r.context.device;
     unsafe {
         device.cmd_begin_rendering(r.commands(), &info);
@@ -51,72 +232,18 @@ pub fn begin_rendering(
     }
 }
 
-/// Closes what [`begin_rendering`] opened.
-pub fn end_rendering(r: &Recorder) {
-    unsafe { r.context.device.cmd_end_rendering(r.commands()) };
-}
-
-/// What is attached of a view's image: its layer, or all layers for all views.
-pub fn attached(layer: &Layer, eyes: Eyes) -> vk::ImageView {
-    match eyes {
-        Eyes::One(_) => layer.view,
-        Eyes::All => layer.image.view,
-    }
-}
-
-/// The depth attachment of some views: cleared to far, or kept for testing alone.
-pub fn depth_attachment(frame: &Frame, eyes: Eyes, clear: bool) -> vk::RenderingAttachmentInfo<'static> {
-    let (layout, load) = if clear {
-        (vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL, vk::AttachmentLoadOp::CLEAR)
-    } else {
-        (vk::ImageLayout::DEPTH_READ_ONLY_OPTIMAL, vk::AttachmentLoadOp::LOAD)
-    };
-    vk::RenderingAttachmentInfo::default()
-        .image_view(attached(&frame.targets[eyes.first()].depth, eyes))
-        .image_layout(layout)
-        .load_op(load)
-        .store_op(if clear { vk::AttachmentStoreOp::STORE } else { vk::AttachmentStoreOp::NONE })
-        .clear_value(vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth: 0.0, stencil: 0 } })
-}
-
-/// What draws surfaces of a kind.
-#[derive(Clone, Copy)]
-pub enum Pipelines<'a> {
-    /// The same for all.
-    One(&'a Pipeline),
-    /// By the textures of the material.
-    ByTextures(&'a BTreeMap<TextureSet, Arc<Pipeline>>),
-}
-
-/// Draws one kind of surface; material textures are bound where the pipelines read them.
-pub fn draw(
-    r: &Recorder,
-    frame: &Frame,
-    eyes: Eyes,
-    pipelines: Pipelines,
-    (kind, textured): (SurfaceKind, bool),
-) {
+/// Draws one kind of surface; materials are bound where the pipelines read them.
+fn draw(r: &Recorder, frame: &Frame, eyes: Eyes, (kind, pipelines): (SurfaceKind, SurfacePipelines)) {
     if !frame.draws_any(eyes, kind) {
         return;
     }
-    let mut state = SurfaceState {
-        pipelines,
-        view: eyes.first(),
-        textured,
-        mirrored: false,
-        textures: None,
-        material: None,
-        facing: None,
-    };
-    if let Pipelines::One(pipeline) = pipelines {
-        frame.bind(r, vk::PipelineBindPoint::GRAPHICS, pipeline, state.view);
-    }
+    let buffers = frame.buffers(frame.clustering_of_view(eyes.first()));
     // Views drawn at once take a draw for each way that faces turn, and leave out what is not of it.
     for mirrored in [false, true].into_iter().filter(|&way| frame.any_mirrored(eyes, way)) {
-        state.mirrored = mirrored;
-        if eyes == Eyes::All {
-            frame.push_step(r, u32::from(mirrored));
-        }
+        let step = if eyes == Eyes::All { u32::from(mirrored) } else { 0 };
+        let push = Push { view: eyes.first() as u32, step };
+        let mut state =
+            SurfaceState { pipelines, buffers, push, mirrored, bound: None, material: None, facing: None };
         draw_all(r, frame, eyes, (kind, &mut state));
     }
 }
@@ -168,14 +295,15 @@ fn draw_commands(r: &Recorder, commands: &Buffer, first: u64, count: u32) {
     }
 }
 
-/// The pipeline and textures bound and the facing set, so that none is set twice.
+/// The pipeline and material bound and the facing set, so that none is set twice.
 struct SurfaceState<'a> {
-    pipelines: Pipelines<'a>,
-    view: usize,
-    textured: bool,
+    pipelines: SurfacePipelines<'a>,
+    buffers: BoundBuffers<'a>,
+    push: Push,
     /// Whether what is drawn is seen in a mirror.
     mirrored: bool,
-    textures: Option<TextureSet>,
+    /// The number of the pipeline.
+    bound: Option<usize>,
     material: Option<u32>,
     facing: Option<(bool, bool)>,
 }
@@ -183,15 +311,15 @@ struct SurfaceState<'a> {
 impl SurfaceState<'_> {
     fn set(&mut self, r: &Recorder, frame: &Frame, batch: u32) {
         let batch = &frame.scene.batches[batch as usize];
-        if let Pipelines::ByTextures(pipelines) = self.pipelines {
-            let textures = frame.scene.texture_sets[batch.material as usize];
-            if self.textures.replace(textures) != Some(textures) {
-                frame.bind(r, vk::PipelineBindPoint::GRAPHICS, &pipelines[&textures], self.view);
-            }
+        let (point, material) = (vk::PipelineBindPoint::GRAPHICS, batch.material as usize);
+        let pipeline = self.pipelines.of(frame.scene.texture_sets[material]);
+        if self.bound.replace(pipeline.number) != Some(pipeline.number) {
+            r.bind(point, pipeline, &self.buffers, self.push);
+            // What was bound for another layout is not bound for this one.
+            self.material = None;
         }
-        if self.textured && self.material.replace(batch.material) != Some(batch.material) {
-            let textures = frame.scene.material_sets[batch.material as usize];
-            frame.bind_set(r, vk::PipelineBindPoint::GRAPHICS, SET_MATERIAL, textures);
+        if pipeline.uses().material && self.material.replace(batch.material) != Some(batch.material) {
+            r.bind_set(point, pipeline, SET_MATERIAL, frame.scene.material_sets[material]);
         }
         let facing = (batch.mirrored != self.mirrored, batch.double_sided);
         if self.facing.replace(facing) != Some(facing) {
@@ -201,7 +329,7 @@ impl SurfaceState<'_> {
 }
 
 /// Sets which faces are front, the other ones where what is drawn is `mirrored`, and whether the others are left out.
-pub fn set_facing(r: &Recorder, mirrored: bool, double_sided: bool) {
+fn set_facing(r: &Recorder, mirrored: bool, double_sided: bool) {
     let cull = if double_sided { vk::CullModeFlags::NONE } else { vk::CullModeFlags::BACK };
     let front = if mirrored { vk::FrontFace::CLOCKWISE } else { vk::FrontFace::COUNTER_CLOCKWISE };
     unsafe {
@@ -217,55 +345,6 @@ impl Frame<'_> {
         match &self.draws {
             Draws::Listed(lists) => !lists[list].runs(kind).is_empty(),
             Draws::Indirect { slots, orders, .. } => !orders[list].groups(slots, kind).is_empty(),
-        }
-    }
-
-    /// Binds a pipeline with the buffers and the number of `view`.
-    pub fn bind(&self, r: &Recorder, point: vk::PipelineBindPoint, pipeline: &Pipeline, view: usize) {
-        let clustering = self.clustering_of_view(view);
-        self.bind_clustering(r, point, pipeline, clustering);
-        self.push_view(r, view);
-    }
-
-    /// Tells shaders the number of the view.
-    pub fn push_view(&self, r: &Recorder, view: usize) {
-        self.push(r, 0, view as u32);
-    }
-
-    /// Pushes the number of the step, for pipelines that run several times in a stage.
-    pub fn push_step(&self, r: &Recorder, step: u32) {
-        self.push(r, 4, step);
-    }
-
-    fn push(&self, r: &Recorder, offset: u32, value: u32) {
-        let (layout, stages) = (self.layouts.pipeline, vk::ShaderStageFlags::ALL);
-        let bytes = value.to_ne_bytes();
-        unsafe { r.context.device.cmd_push_constants(r.commands(), layout, stages, offset, &bytes) };
-    }
-
-    /// Binds a pipeline with the buffers of clustering `clustering`.
-    pub fn bind_clustering(
-        &self,
-        r: &Recorder,
-        point: vk::PipelineBindPoint,
-        pipeline: &Pipeline,
-        clustering: usize,
-    ) {
-        unsafe { r.context.device.cmd_bind_pipeline(r.commands(), point, pipeline.handle) };
-        self.bind_set(r, point, SET_BUFFERS, self.clusterings[clustering].sets[self.slot]);
-    }
-
-    /// Binds one descriptor set.
-    pub fn bind_set(&self, r: &Recorder, point: vk::PipelineBindPoint, index: u32, set: vk::DescriptorSet) {
-        unsafe {
-            r.context.device.cmd_bind_descriptor_sets(
-                r.commands(),
-                point,
-                self.layouts.pipeline,
-                index,
-                &[set],
-                &[],
-            );
         }
     }
 }

@@ -1,10 +1,9 @@
 //! Lines over a still: frusta and boxes. Faint where the scene hides them.
 
-use crate::frame::Frame;
-use crate::pass::Recorder;
+use super::draws::Overlay;
+use crate::buffers::BufferSet;
 use crate::pipelines::DebugPipelines;
 use crate::vk::Buffer;
-use ash::vk;
 
 /// A line in world space, as the vertex shader reads it.
 #[repr(C)]
@@ -21,19 +20,14 @@ pub struct Line {
 /// Vertices of a line: two triangles.
 const VERTICES: u32 = 6;
 
-/// Draws `count` lines; rendering to the view is open.
-pub fn record(
-    r: &Recorder,
-    frame: &Frame,
-    pipelines: &DebugPipelines,
-    view: usize,
-    (lines, count): (&Buffer, u32),
-) {
-    for pipeline in &pipelines.lines {
-        frame.bind(r, vk::PipelineBindPoint::GRAPHICS, pipeline, view);
-        unsafe {
-            r.context.device.cmd_bind_vertex_buffers(r.commands(), 0, &[lines.handle], &[0]);
-            r.context.device.cmd_draw(r.commands(), VERTICES, count, 0, 0);
-        }
-    }
+/// `count` lines, through everything and then where nothing hides them.
+pub fn overlays<'a>(pipelines: &'a DebugPipelines, (lines, count): (&'a Buffer, u32)) -> [Overlay<'a>; 2] {
+    pipelines.lines.each_ref().map(|pipeline| Overlay {
+        pipeline,
+        vertices: VERTICES,
+        count,
+        instances: Some(lines),
+        closed: false,
+        reads: BufferSet::EMPTY,
+    })
 }

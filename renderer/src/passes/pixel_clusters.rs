@@ -1,11 +1,11 @@
 //! Stage `pixel_clusters[c]` of stills: the marked cluster of each pixel of any camera.
 
-use super::readback::copy;
+use super::pixel_maps::LOOKED_UP;
+use crate::buffers::{BufferName as B, set};
 use crate::frame::Frame;
-use crate::gpu_interface::SET_DEPTH;
-use crate::pass::{Access, Recorder, Use};
-use crate::vk::{Buffer, Pipeline};
-use ash::vk;
+use crate::layouts::Pipeline;
+use crate::pass::{BufferCopy, Dispatch, Push, Recorder, Size};
+use crate::vk::Buffer;
 
 /// Looks the pixels of `view`'s prepass up in `clustering` and copies what is known of them to `target`.
 pub fn record(
@@ -16,25 +16,17 @@ pub fn record(
     target: &Buffer,
 ) {
     r.scope(("pixel_clusters", clustering), |r| {
-        let b = &frame.clusterings[clustering].buffers;
-        r.access(&[
-            Access::image(
-                frame.targets[view].depth.image.handle,
-                vk::ImageAspectFlags::DEPTH,
-                Use::ComputeSample,
-            ),
-            Access::buffer(b.pixels.handle, Use::ComputeWrite),
-            Access::buffer(b.cluster_bits.handle, Use::ComputeRead),
-            Access::buffer(b.word_ranks.handle, Use::ComputeRead),
-            Access::buffer(b.list_offsets.handle, Use::ComputeRead),
-            Access::buffer(b.visible_fragments.handle, Use::ComputeRead),
-        ]);
-        frame.bind_clustering(r, vk::PipelineBindPoint::COMPUTE, pipeline, clustering);
-        frame.push_view(r, view);
-        frame.bind_set(r, vk::PipelineBindPoint::COMPUTE, SET_DEPTH, frame.targets[view].depth_set);
-        let [width, height] = frame.resolution;
-        unsafe { r.context.device.cmd_dispatch(r.commands(), width.div_ceil(8), height.div_ceil(8), 1) };
-        copy(r, &b.pixels, target, 0, target.size);
-        r.access(&[Access::buffer(target.handle, Use::HostRead)]);
+        r.dispatch(&Dispatch {
+            pipeline,
+            buffers: frame.buffers(clustering),
+            size: Size::pixels(frame.resolution),
+            reads: LOOKED_UP,
+            writes: set(&[B::Pixels]),
+            depth: Some(frame.targets[view].depth_image()),
+            push: Push::view(view),
+        });
+        let from = &frame.clusterings[clustering].buffers[B::Pixels];
+        r.copy(&BufferCopy { from, to: target, offset: 0, size: target.size });
+        r.hand_over(target);
     });
 }

@@ -1,35 +1,32 @@
 //! What goes back to the host: each frame's few words of state, and in atemporal runs everything counted.
 
+use crate::buffers::BufferName as B;
 use crate::frame::Frame;
 use crate::gpu_interface::{COUNTER_COUNT, ClusteringState};
-use crate::pass::{Access, Recorder, Use};
+use crate::pass::{BufferCopy, Recorder};
 use crate::vk::Buffer;
-use ash::vk;
 
 /// Bytes of one clustering's state.
 pub const STATE_BYTES: u64 = size_of::<ClusteringState>() as u64;
 
 /// Copies every clustering's state, by which overflow is seen.
 pub fn states(r: &mut Recorder, frame: &Frame) {
-    for (c, clustering) in frame.clusterings.iter().enumerate() {
-        r.access(&[
-            Access::buffer(clustering.buffers.state.handle, Use::TransferRead),
-            Access::buffer(frame.states.handle, Use::TransferWrite),
-        ]);
-        let source = clustering.buffers.state.handle;
-        let region = vk::BufferCopy::default().dst_offset(c as u64 * STATE_BYTES).size(STATE_BYTES);
-        unsafe { r.context.device.cmd_copy_buffer(r.commands(), source, frame.states.handle, &[region]) };
+    for (offset, clustering) in (0..).step_by(STATE_BYTES as usize).zip(frame.clusterings) {
+        r.copy(&BufferCopy {
+            from: &clustering.buffers[B::State],
+            to: frame.states,
+            offset,
+            size: STATE_BYTES,
+        });
     }
-    r.access(&[Access::buffer(frame.states.handle, Use::HostRead)]);
+    r.hand_over(frame.states);
 }
 
 /// Zeroes the counters of an atemporal frame, before it begins.
 pub fn clear_counters(r: &mut Recorder, frame: &Frame) {
     for clustering in frame.clusterings {
-        for buffer in [&clustering.buffers.counters, &clustering.buffers.lights_per_fragment] {
-            r.access(&[Access::buffer(buffer.handle, Use::TransferWrite)]);
-            unsafe { r.context.device.cmd_fill_buffer(r.commands(), buffer.handle, 0, vk::WHOLE_SIZE, 0) };
-        }
+        r.clear(&clustering.buffers[B::Counters]);
+        r.clear(&clustering.buffers[B::LightsPerFragment]);
     }
 }
 
@@ -47,31 +44,21 @@ pub fn counted_words(visible: u32, indices: u32, lights: u32) -> [u64; 6] {
 
 /// Copies, one behind the other: counters, lights per fragment, visible clusters, their fragments, offsets, indices.
 pub fn copy_counted(r: &mut Recorder, frame: &Frame, clustering: usize, words: &[u64; 6], target: &Buffer) {
-    let b = &frame.clusterings[clustering].buffers;
     let sources = [
-        &b.counters,
-        &b.lights_per_fragment,
-        &b.visible_clusters,
-        &b.visible_fragments,
-        &b.list_offsets,
-        &b.light_indices,
+        B::Counters,
+        B::LightsPerFragment,
+        B::VisibleClusters,
+        B::VisibleFragments,
+        B::ListOffsets,
+        B::LightIndices,
     ];
     let mut offset = 0;
     for (source, words) in sources.into_iter().zip(words) {
         if *words > 0 {
-            copy(r, source, target, offset, 4 * words);
+            let from = &frame.clusterings[clustering].buffers[source];
+            r.copy(&BufferCopy { from, to: target, offset, size: 4 * words });
             offset += 4 * words;
         }
     }
-    r.access(&[Access::buffer(target.handle, Use::HostRead)]);
-}
-
-/// Copies the first `size` bytes of `source` to `offset` in `target`.
-pub fn copy(r: &mut Recorder, source: &Buffer, target: &Buffer, offset: u64, size: u64) {
-    r.access(&[
-        Access::buffer(source.handle, Use::TransferRead),
-        Access::buffer(target.handle, Use::TransferWrite),
-    ]);
-    let region = vk::BufferCopy::default().dst_offset(offset).size(size);
-    unsafe { r.context.device.cmd_copy_buffer(r.commands(), source.handle, target.handle, &[region]) };
+    r.hand_over(target);
 }

@@ -6,113 +6,147 @@
 //! items ──single──> total, exclusive prefix per item                           where there are few
 //! ```
 
+use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::frame::Frame;
 use crate::gpu_interface::{
-    ASSIGN_GROUP, DISPATCH_SCAN, DISPATCH_SORT_SCAN, DispatchSize, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS,
+    ASSIGN_GROUP, DISPATCH_SCAN, DISPATCH_SORT_SCAN, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS,
 };
-use crate::pass::{Access, Recorder, Use};
+use crate::layouts::Pipeline;
+use crate::pass::{Dispatch, Push, Recorder, Size};
 use crate::pipelines::ScanPipelines;
-use crate::vk::Buffer;
-use ash::vk;
-
-/// How many items a scan takes.
-#[derive(Clone, Copy)]
-enum Items {
-    /// As many.
-    Count(u32),
-    /// At most as many; the device knows, and has written how many blocks that is into a slot of the dispatch sizes.
-    AtMost(u32, u32),
-}
 
 /// Up to this many blocks one workgroup scans them all: two dispatches fewer.
 const MAX_SINGLE_BLOCKS: u32 = 16;
 
+/// What a prefix sum sums, and where it goes.
+struct Scan<'a> {
+    pipelines: &'a ScanPipelines,
+    /// Items, at most.
+    items: u32,
+    /// The slot of the dispatch sizes that says how many blocks there are, where the device alone knows.
+    slot: Option<u32>,
+    /// What tells how many items there are.
+    length: BufferSet,
+    /// The items.
+    summed: BufferSet,
+    /// What becomes of the items and their prefixes.
+    emits: BufferSet,
+    /// What follows from the total.
+    publishes: BufferSet,
+    push: Push,
+}
+
 /// Ranks the visibility words and lists the visible clusters by ascending index.
 pub fn compact(r: &mut Recorder, frame: &Frame, clustering: usize) {
     r.scope("compact", |r| {
-        let this = &frame.clusterings[clustering];
-        let b = &this.buffers;
-        let touched = [&b.cluster_bits, &b.word_ranks, &b.visible_clusters];
-        let pipelines = &frame.pipelines.clustered().compact;
-        scan(r, frame, clustering, pipelines, (Items::Count(this.word_count), &touched));
+        let scan = Scan {
+            pipelines: &frame.pipelines.clustered().compact,
+            items: frame.clusterings[clustering].word_count,
+            slot: None,
+            length: BufferSet::EMPTY,
+            summed: set(&[B::ClusterBits]),
+            emits: set(&[B::WordRanks, B::VisibleClusters]),
+            publishes: set(&[B::State, B::Dispatches]),
+            push: Push::default(),
+        };
+        record(r, frame, clustering, &scan);
     });
 }
 
 /// Offsets of the lists from their lengths.
 pub fn light_offsets(r: &mut Recorder, frame: &Frame, clustering: usize) {
     r.scope("light_offsets", |r| {
-        let this = &frame.clusterings[clustering];
-        let touched = [&this.buffers.list_lengths, &this.buffers.list_offsets];
-        let items = Items::AtMost(this.visible_capacity, DISPATCH_SCAN);
-        scan(r, frame, clustering, &frame.pipelines.clustered().light_offsets, (items, &touched));
+        let scan = Scan {
+            pipelines: &frame.pipelines.clustered().light_offsets,
+            items: frame.clusterings[clustering].visible_capacity,
+            slot: Some(DISPATCH_SCAN),
+            length: set(&[B::State]),
+            summed: set(&[B::ListLengths]),
+            emits: set(&[B::ListOffsets]),
+            publishes: set(&[B::State, B::ListOffsets]),
+            push: Push::default(),
+        };
+        record(r, frame, clustering, &scan);
     });
 }
 
 /// Ranks the words of light bits.
 pub(super) fn rank_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
-    let b = &frame.clusterings[clustering].buffers;
-    let touched = [&b.light_bits];
-    let items = Items::Count(frame.light_count.div_ceil(32));
-    scan(r, frame, clustering, &frame.pipelines.accelerated().rank_lights, (items, &touched));
+    let scan = Scan {
+        pipelines: &frame.pipelines.accelerated().rank_lights,
+        items: frame.light_count.div_ceil(32),
+        slot: None,
+        length: BufferSet::EMPTY,
+        summed: set(&[B::LightBits]),
+        emits: set(&[B::LightBits]),
+        publishes: set(&[B::State, B::Dispatches]),
+        push: Push::default(),
+    };
+    record(r, frame, clustering, &scan);
 }
 
 /// Gives groups of visible clusters the tiles that their lights fill.
 pub(super) fn group_tiles(r: &mut Recorder, frame: &Frame, clustering: usize) {
-    let this = &frame.clusterings[clustering];
-    let touched = [&this.buffers.light_nodes, &this.buffers.digit_counts];
-    let items = Items::Count(this.visible_capacity.div_ceil(ASSIGN_GROUP));
-    scan(r, frame, clustering, &frame.pipelines.accelerated().group_tiles, (items, &touched));
+    let scan = Scan {
+        pipelines: &frame.pipelines.accelerated().group_tiles,
+        items: frame.clusterings[clustering].visible_capacity.div_ceil(ASSIGN_GROUP),
+        slot: None,
+        length: set(&[B::State]),
+        summed: set(&[B::Groups]),
+        emits: set(&[B::Groups, B::TileGroups]),
+        publishes: set(&[B::State, B::Dispatches]),
+        push: Push::default(),
+    };
+    record(r, frame, clustering, &scan);
 }
 
-/// Where each digit of each block of the sort goes; the step is pushed already.
-pub(super) fn digit_offsets(r: &mut Recorder, frame: &Frame, clustering: usize) {
-    let b = &frame.clusterings[clustering].buffers;
-    let most = frame.light_count.div_ceil(SORT_BLOCK) * SORT_DIGITS;
-    let items = Items::AtMost(most, DISPATCH_SORT_SCAN);
-    scan(r, frame, clustering, &frame.pipelines.accelerated().digit_offsets, (items, &[&b.digit_counts]));
+/// Where each digit of each block of the sort goes, in pass `step`.
+pub(super) fn digit_offsets(r: &mut Recorder, frame: &Frame, clustering: usize, step: u32) {
+    let scan = Scan {
+        pipelines: &frame.pipelines.accelerated().digit_offsets,
+        items: frame.light_count.div_ceil(SORT_BLOCK) * SORT_DIGITS,
+        slot: Some(DISPATCH_SORT_SCAN),
+        length: set(&[B::State]),
+        summed: set(&[B::DigitCounts]),
+        emits: set(&[B::DigitCounts]),
+        publishes: BufferSet::EMPTY,
+        push: Push::step(step),
+    };
+    record(r, frame, clustering, &scan);
 }
 
-/// Scans; `touched` is what the items are read from and what becomes of them is written to.
-fn scan(
+fn record(r: &mut Recorder, frame: &Frame, clustering: usize, scan: &Scan) {
+    let Scan { pipelines, length, summed, emits, publishes, .. } = *scan;
+    let blocks = scan.items.div_ceil(SCAN_BLOCK);
+    let items = length | summed;
+    if blocks <= MAX_SINGLE_BLOCKS {
+        one(r, frame, clustering, scan, (&pipelines.single, Size::Groups(1, 1)), (items, emits | publishes));
+        return;
+    }
+    let size = scan.slot.map_or(Size::Groups(blocks, 1), Size::Indirect);
+    let sums = set(&[B::BlockSums]);
+    one(r, frame, clustering, scan, (&pipelines.reduce, size), (items, sums));
+    let single = (&*pipelines.block_offsets, Size::Groups(1, 1));
+    one(r, frame, clustering, scan, single, (length, sums | publishes));
+    one(r, frame, clustering, scan, (&pipelines.apply, size), (items | sums, emits));
+}
+
+/// One dispatch of a scan; what is written need not be said to be read.
+fn one(
     r: &mut Recorder,
     frame: &Frame,
     clustering: usize,
-    pipelines: &ScanPipelines,
-    (items, touched): (Items, &[&Buffer]),
+    scan: &Scan,
+    (pipeline, size): (&Pipeline, Size),
+    (reads, writes): (BufferSet, BufferSet),
 ) {
-    let (most, slot) = match items {
-        Items::Count(count) => (count, None),
-        Items::AtMost(most, slot) => (most, Some(slot)),
-    };
-    let blocks = most.div_ceil(SCAN_BLOCK);
-    let all = &[
-        (&pipelines.reduce, blocks, slot),
-        (&pipelines.block_offsets, 1, None),
-        (&pipelines.apply, blocks, slot),
-    ];
-    let single = &[(&pipelines.single, 1, None)];
-    let b = &frame.clusterings[clustering].buffers;
-    for &(pipeline, groups, slot) in if blocks <= MAX_SINGLE_BLOCKS { &single[..] } else { &all[..] } {
-        // Each dispatch reads what the one before it wrote here; the one that knows the total writes dispatch sizes.
-        let sizes = if slot.is_some() { Use::Indirect } else { Use::ComputeWrite };
-        r.access(&[
-            Access::buffer(b.dispatches.handle, sizes),
-            Access::buffer(b.block_sums.handle, Use::ComputeWrite),
-            Access::buffer(b.state.handle, Use::ComputeWrite),
-        ]);
-        for buffer in touched {
-            r.access(&[Access::buffer(buffer.handle, Use::ComputeWrite)]);
-        }
-        frame.bind_clustering(r, vk::PipelineBindPoint::COMPUTE, pipeline, clustering);
-        match slot {
-            None => unsafe { r.context.device.cmd_dispatch(r.commands(), groups, 1, 1) },
-            Some(slot) => dispatch_indirect(r, b.dispatches.handle, slot),
-        }
-    }
-}
-
-/// Dispatches with the size that the device wrote into slot `slot`.
-pub(super) fn dispatch_indirect(r: &Recorder, dispatches: vk::Buffer, slot: u32) {
-    let offset = u64::from(slot) * size_of::<DispatchSize>() as u64;
-    unsafe { r.context.device.cmd_dispatch_indirect(r.commands(), dispatches, offset) };
+    r.dispatch(&Dispatch {
+        pipeline,
+        buffers: frame.buffers(clustering),
+        size,
+        reads: reads - writes,
+        writes,
+        depth: None,
+        push: scan.push,
+    });
 }

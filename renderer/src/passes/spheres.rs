@@ -1,10 +1,9 @@
 //! Influence volumes of the lights over a still, as translucent spheres.
 
-use super::draws::set_facing;
+use super::draws::Overlay;
+use crate::buffers::{BufferName as B, set};
 use crate::frame::Frame;
-use crate::pass::Recorder;
 use crate::pipelines::DebugPipelines;
-use ash::vk;
 
 /// Bands between the poles of a sphere.
 pub const RINGS: u32 = 12;
@@ -14,9 +13,14 @@ pub const SEGMENTS: u32 = 24;
 /// Vertices of a sphere: two triangles a quad.
 const VERTICES: u32 = 6 * RINGS * SEGMENTS;
 
-/// Draws all lights of the frame, in their order; rendering to the view is open.
-pub fn record(r: &Recorder, frame: &Frame, pipelines: &DebugPipelines, view: usize) {
-    frame.bind(r, vk::PipelineBindPoint::GRAPHICS, &pipelines.spheres, view);
-    set_facing(r, frame.mirrored[view], false);
-    unsafe { r.context.device.cmd_draw(r.commands(), VERTICES, frame.light_count, 0, 0) };
+/// All lights of the frame, in their order.
+pub fn overlay<'a>(frame: &Frame, pipelines: &'a DebugPipelines) -> Overlay<'a> {
+    Overlay {
+        pipeline: &pipelines.spheres,
+        vertices: VERTICES,
+        count: frame.light_count,
+        instances: None,
+        closed: true,
+        reads: set(&[B::Lights]),
+    }
 }

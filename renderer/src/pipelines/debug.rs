@@ -3,10 +3,11 @@
 use super::{COLOR_FORMAT, DEPTH_FORMAT, Output, PipelineStore, Variant};
 use crate::Result;
 use crate::draw_list::SurfaceKind;
+use crate::layouts::Pipeline;
 use crate::passes::lines::Line;
 use crate::passes::spheres::{RINGS, SEGMENTS};
 use crate::texture_sets::TextureSet;
-use crate::vk::{self as gpu, GraphicsDesc, Pipeline};
+use crate::vk::GraphicsDesc;
 use ash::vk;
 use std::mem::offset_of;
 use std::sync::Arc;
@@ -21,6 +22,8 @@ pub struct DebugPipelines {
     pub lines: [Arc<Pipeline>; 2],
     /// Influence volumes of lights.
     pub spheres: Arc<Pipeline>,
+    /// All of them, each once.
+    pub all: Vec<Arc<Pipeline>>,
 }
 
 impl PipelineStore {
@@ -29,7 +32,8 @@ impl PipelineStore {
         let defines = variant.defines();
         let clay = "debug/clay.frag";
         let clusters = "debug/pixel_clusters.comp";
-        Ok(DebugPipelines {
+        self.take_asked();
+        let mut pipelines = DebugPipelines {
             clay: [
                 self.graphics(
                     variant,
@@ -48,10 +52,13 @@ impl PipelineStore {
             ],
             lines: [self.lines(variant, true)?, self.lines(variant, false)?],
             spheres: self.spheres(variant)?,
-        })
+            all: vec![],
+        };
+        pipelines.all = self.take_asked();
+        Ok(pipelines)
     }
 
-    fn lines(&self, variant: &Variant, hidden: bool) -> Result<Arc<Pipeline>> {
+    fn lines(&mut self, variant: &Variant, hidden: bool) -> Result<Arc<Pipeline>> {
         let attribute = |(location, offset): (u32, usize)| vk::VertexInputAttributeDescription {
             location,
             binding: 0,
@@ -75,7 +82,7 @@ impl PipelineStore {
         self.overlay_pipeline("debug/lines", &defines, desc)
     }
 
-    fn spheres(&self, variant: &Variant) -> Result<Arc<Pipeline>> {
+    fn spheres(&mut self, variant: &Variant) -> Result<Arc<Pipeline>> {
         let defines = variant
             .defines()
             .with("SPHERE_RINGS", RINGS)
@@ -86,16 +93,17 @@ impl PipelineStore {
     }
 
     fn overlay_pipeline(
-        &self,
+        &mut self,
         stem: &str,
         defines: &super::Defines,
         desc: GraphicsDesc,
     ) -> Result<Arc<Pipeline>> {
-        let vertex = self.shaders.compile(&format!("{stem}.vert"), &defines.0)?;
-        let fragment = self.shaders.compile(&format!("{stem}.frag"), &defines.0)?;
-        let desc = GraphicsDesc { vertex: &vertex, fragment: Some(&fragment), ..desc };
-        let pipeline = gpu::graphics_pipeline(&self.context, self.layouts.pipeline, &desc, stem)?;
-        Ok(Arc::new(pipeline))
+        self.once(format!("{stem} {defines:?}"), |store, number| {
+            let vertex = store.shaders.compile(&format!("{stem}.vert"), &defines.0)?;
+            let fragment = store.shaders.compile(&format!("{stem}.frag"), &defines.0)?;
+            let desc = GraphicsDesc { vertex: &vertex, fragment: Some(&fragment), ..desc };
+            store.rasterizing(&desc, stem, number)
+        })
     }
 }
 

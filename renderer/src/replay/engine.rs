@@ -5,13 +5,13 @@ use super::plan::{FramePlan, views_of_clusterings};
 use super::session::Session;
 use crate::Result;
 use crate::assign::Assigner;
-use crate::clustering::{
-    Clustering, ClusteringSizes, SharedBuffers, device_buffer, grid_data, gridless_data, view_data,
-};
+use crate::buffers::{BufferName, ClusteringSizes};
+use crate::clustering::{Clustering, SharedBuffer, grid_data, gridless_data, make_buffer, view_data};
 use crate::config::{Config, Culling, Marking, Scopes};
 use crate::frame::{self, Draws, Frame, SLOTS};
 use crate::geometry::SphereTest;
 use crate::gpu_interface::{ClusteringState, DrawCounts, LightData};
+use crate::layouts::Pipeline;
 use crate::lights::PointLight;
 use crate::measure::{Capacities, GrowthEvent};
 use crate::methods::MethodSpec;
@@ -129,7 +129,7 @@ impl Engine {
             resolution: config.resolution,
             timed_scopes: if config.scopes == Scopes::All { usize::MAX } else { 1 },
             staging: [staging()?, staging()?],
-            lights: device_buffer(&session.context, "lights", light_bytes)?,
+            lights: make_buffer(&session.context, BufferName::Lights, light_bytes, Memory::Device)?,
             pipelines: session.store.pipelines(&variant(config, method, &mode))?,
             sizes,
             staged: Vec::with_capacity(mode.lights as usize),
@@ -172,20 +172,27 @@ impl Engine {
 
     fn make_clusterings(&mut self, session: &Session) -> Result<()> {
         self.clusterings.clear();
-        let shared = SharedBuffers {
-            views: [&session.slots[0].views, &session.slots[1].views],
-            lights: &self.lights,
-            instances: &session.scene.instances,
-            draw_slots: &session.scene.draw_slots,
-            draw_order: [&session.slots[0].draw_order, &session.slots[1].draw_order],
-            draws: &session.draws,
-        };
+        let slots = &session.slots;
+        let shared: [SharedBuffer; 7] = [
+            (BufferName::Views, slots.each_ref().map(|slot| &slot.views)),
+            (BufferName::DrawOrder, slots.each_ref().map(|slot| &slot.draw_order)),
+            (BufferName::Lights, [&self.lights; SLOTS]),
+            (BufferName::Instances, [&session.scene.instances; SLOTS]),
+            (BufferName::DrawSlots, [&session.scene.draw_slots; SLOTS]),
+            (BufferName::DrawCommands, [&session.draws.commands; SLOTS]),
+            (BufferName::DrawnInstances, [&session.draws.drawn_instances; SLOTS]),
+        ];
         for views in views_of_clusterings(&self.method, session.targets.len()) {
-            let clustering =
-                Clustering::new(&session.context, &session.layouts, &shared, &self.sizes, views)?;
+            let pipelines = self.pipelines.all();
+            let clustering = Clustering::new(&session.context, &shared, &self.sizes, views, pipelines)?;
             self.clusterings.push(clustering);
         }
         Ok(())
+    }
+
+    /// Lets commands beside a frame's own use more pipelines.
+    pub fn bind(&mut self, session: &Session, pipelines: &[Arc<Pipeline>]) -> Result<()> {
+        self.clusterings.iter_mut().try_for_each(|clustering| clustering.bind(&session.context, pipelines))
     }
 
     /// Records and submits a frame into `slot`, whose last frame must have ended. `extend` may record more commands
@@ -224,7 +231,6 @@ impl Engine {
     fn record(&mut self, session: &mut Session, slot: usize, body: impl FnOnce(&mut Recorder, &Frame)) {
         let this = &mut session.slots[slot];
         let frame = Frame {
-            layouts: &session.layouts,
             pipelines: &self.pipelines,
             scene: &session.scene,
             draws: match self.culling {
@@ -320,10 +326,10 @@ impl Engine {
             None => gridless_data(lights),
         };
         clustering.word_count = data.word_count;
-        clustering.grids[slot].write(0, &[data]);
+        clustering.host[slot][BufferName::Grid].write(0, &[data]);
         if let Some(grid) = &grid {
             grid.slice_planes(&mut self.slice_planes);
-            clustering.slice_planes[slot].write(0, &self.slice_planes);
+            clustering.host[slot][BufferName::SlicePlanes].write(0, &self.slice_planes);
         }
         for (view, number) in views.iter().zip(clustering.views.clone()) {
             let near = view.relative_to(origin);
@@ -395,7 +401,7 @@ fn light_data(light: &PointLight, origin: DVec3) -> LightData {
         intensity: light.intensity,
         cutoff: light.cutoff,
         r0: light.r0,
-        unused: [0.0; 2],
+        ..Default::default()
     }
 }
 

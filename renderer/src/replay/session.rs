@@ -1,6 +1,7 @@
 //! What all runs of a replay share: device, scene, render targets, frames in flight.
 
-use crate::clustering::device_buffer;
+use crate::buffers::BufferName;
+use crate::clustering::make_buffer;
 use crate::config::Config;
 use crate::draw_list::{Batches, DrawList};
 use crate::draw_slots::{DrawSlots, SlotOrder};
@@ -15,7 +16,7 @@ use crate::scene::Scene;
 use crate::texture_sets::drawn_sets;
 use crate::views::ViewSet;
 use crate::vk::{Buffer, Context, DeviceOptions, Image, ImageDesc, Memory, ShaderLibrary};
-use crate::{Error, Result, gpu_interface};
+use crate::{Error, Result, buffers, gpu_interface};
 use ash::vk;
 use std::sync::Arc;
 
@@ -57,18 +58,16 @@ impl Slot {
         context.name(pool, "frame");
         context.name(commands, "frame");
         context.name(fence, "frame");
-        let uniform = vk::BufferUsageFlags::UNIFORM_BUFFER;
         Ok(Self {
             context: context.clone(),
             pool,
             commands,
             fence,
             timestamps: Timestamps::new(context, views)?,
-            views: Buffer::new(
+            views: make_buffer(
                 context,
-                "views",
+                BufferName::Views,
                 u64::from(MAX_VIEWS) * size_of::<ViewData>() as u64,
-                uniform,
                 Memory::Upload,
             )?,
             mirrored: vec![],
@@ -145,8 +144,6 @@ pub struct Session {
     pub draws: DrawBuffers,
     /// Pipelines made so far.
     pub store: PipelineStore,
-    /// The one pipeline layout.
-    pub layouts: Arc<Layouts>,
     /// Memory of the barrier derivation.
     pub tracker: FrameTracker,
     /// The device.
@@ -181,7 +178,6 @@ impl Session {
             draws: draw_buffers(&context, views, draw_slots.counts)?,
             draw_slots,
             store: PipelineStore::new(&context, &layouts, shaders, (view_set, drawn_sets(scene))),
-            layouts,
             tracker: FrameTracker::default(),
             context,
         })
@@ -191,8 +187,7 @@ impl Session {
 /// Counts, and room for the order of every view's transparent slots.
 fn draw_order(context: &Arc<Context>, views: usize, counts: DrawCounts) -> Result<Buffer> {
     let size = size_of::<DrawCounts>() + 4 * views * counts.transparents as usize;
-    let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
-    let buffer = Buffer::new(context, "draw order", size as u64, usage, Memory::Upload)?;
+    let buffer = make_buffer(context, BufferName::DrawOrder, size as u64, Memory::Upload)?;
     buffer.write(0, &[counts]);
     Ok(buffer)
 }
@@ -201,16 +196,17 @@ fn draw_buffers(context: &Arc<Context>, views: usize, counts: DrawCounts) -> Res
     let lists = views as u64 + 1;
     let commands = lists * u64::from(counts.surfaces + counts.transparents);
     let instances = lists * u64::from(counts.instances);
+    let make = |name, size| make_buffer(context, name, size, Memory::Device);
     Ok(DrawBuffers {
-        commands: device_buffer(context, "draw commands", commands * size_of::<DrawCommand>() as u64)?,
-        drawn_instances: device_buffer(context, "drawn instances", 4 * instances)?,
+        commands: make(BufferName::DrawCommands, commands * size_of::<DrawCommand>() as u64)?,
+        drawn_instances: make(BufferName::DrawnInstances, 4 * instances)?,
     })
 }
 
 /// The shader sources that the config chooses.
 pub fn shader_library(config: &Config) -> Result<ShaderLibrary> {
-    let include = ("generated/gpu_interface.glsl".to_owned(), gpu_interface::glsl());
-    ShaderLibrary::new(config.shaders.as_deref(), vec![include])
+    let text = gpu_interface::glsl() + &buffers::glsl();
+    ShaderLibrary::new(config.shaders.as_deref(), vec![("generated/gpu_interface.glsl".to_owned(), text)])
 }
 
 fn check_views(views: usize) -> Result<()> {

@@ -66,6 +66,7 @@ impl<'a> Onlooker<'a> {
         shaded: Vec<ViewPixels>,
     ) -> Result<Seen> {
         let pipelines = session.store.debug(&engine::variant(self.config, engine.method(), mode))?;
+        engine.bind(session, &pipelines.all)?;
         let eye = self.eye(&shaded, &session.scene)?;
         let layers = self.layers(session, engine, (&pipelines, &eye), shaded)?;
         let empty = self.empty_pixels(&eye);

@@ -1,7 +1,7 @@
 //! The commands of a still, after its frame has ended: what one camera sees, and what lies over it.
 
 use crate::frame::{Eyes, Frame};
-use crate::pass::{Access, Recorder, Use};
+use crate::pass::Recorder;
 use crate::passes::{clay, depth, draws, lines, pixel_clusters, pixel_maps, resolve, spheres};
 use crate::pipelines::DebugPipelines;
 use crate::vk::Buffer;
@@ -45,14 +45,10 @@ pub fn record(r: &mut Recorder, frame: &Frame, drawing: &Drawing, outputs: &Outp
             pixel_clusters::record(r, frame, pipeline, (view, clustering), output);
         }
         r.scope("overlay", |r| {
-            clay::begin_over_prepass(r, frame, view);
-            if drawing.spheres {
-                spheres::record(r, frame, drawing.pipelines, view);
-            }
-            if let Some(batch) = drawing.lines {
-                lines::record(r, frame, drawing.pipelines, view, batch);
-            }
-            draws::end_rendering(r);
+            let spheres = drawing.spheres.then(|| spheres::overlay(frame, drawing.pipelines));
+            let lines = drawing.lines.map(|batch| lines::overlays(drawing.pipelines, batch));
+            let overlays: Vec<_> = spheres.into_iter().chain(lines.into_iter().flatten()).collect();
+            draws::overlays(r, frame, view, &overlays);
         });
         copy_out(r, frame, view, outputs.overlay);
     });
@@ -61,5 +57,5 @@ pub fn record(r: &mut Recorder, frame: &Frame, drawing: &Drawing, outputs: &Outp
 fn copy_out(r: &mut Recorder, frame: &Frame, view: usize, target: &Buffer) {
     resolve::resolve(r, &frame.targets[view], frame.resolution);
     pixel_maps::copy_color(r, frame, view, target);
-    r.access(&[Access::buffer(target.handle, Use::HostRead)]);
+    r.hand_over(target);
 }

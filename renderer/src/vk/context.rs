@@ -123,6 +123,11 @@ impl Context {
         }
     }
 
+    /// Whether the validation layers are on.
+    pub fn validates(&self) -> bool {
+        self.instance.validates()
+    }
+
     /// [`Error::Internal`] with the first validation message and the number of all, if any arrived.
     pub fn check_validation(&self) -> Result<()> {
         self.instance.log.check()

@@ -18,6 +18,11 @@ pub(super) struct Instance {
 }
 
 impl Instance {
+    /// Whether the validation layers are on.
+    pub fn validates(&self) -> bool {
+        self.messenger.is_some()
+    }
+
     /// Loads the loader and makes the instance.
     ///
     /// # Errors

@@ -6,6 +6,7 @@ use crate::cpu;
 use crate::frame::{Eyes, light_lists};
 use crate::geometry::{ClusterSpace, Frustum, Grid};
 use crate::methods::{Sharing, Space};
+use crate::pass::BufferCopy;
 use crate::passes::{assign, depth, readback, scan};
 use crate::rain::{Rain, RainParameters};
 use crate::scene::Scene;
@@ -101,30 +102,34 @@ impl Bench {
     }
 
     /// Fills one of the clustering's buffers from the host.
-    fn upload(&mut self, pick: impl Fn(&Clustering) -> &Buffer, data: &[u32]) {
+    fn upload(&mut self, name: BufferName, data: &[u32]) {
         let usage = vk::BufferUsageFlags::TRANSFER_SRC;
         let source =
             Buffer::new(&self.session.context, "test data", 4 * data.len() as u64, usage, Memory::Upload)
                 .unwrap();
         source.write(0, data);
         self.run(|r, frame| {
-            readback::copy(r, &source, pick(&frame.clusterings[0]), 0, 4 * data.len() as u64);
+            let to = &frame.clusterings[0].buffers[name];
+            r.copy(&BufferCopy { from: &source, to, offset: 0, size: 4 * data.len() as u64 });
         });
     }
 
-    fn download(&mut self, pick: impl Fn(&Clustering) -> &Buffer, words: usize) -> Vec<u32> {
+    fn download(&mut self, name: BufferName, words: usize) -> Vec<u32> {
         let usage = vk::BufferUsageFlags::TRANSFER_DST;
         let size = 4 * words as u64;
         let target =
             Buffer::new(&self.session.context, "test result", size, usage, Memory::Readback).unwrap();
-        self.run(|r, frame| readback::copy(r, pick(&frame.clusterings[0]), &target, 0, size));
+        self.run(|r, frame| {
+            let from = &frame.clusterings[0].buffers[name];
+            r.copy(&BufferCopy { from, to: &target, offset: 0, size });
+        });
         target.read(0, words)
     }
 
     /// Marks clusters, compacts them, and gives the device's state.
     fn compact(&mut self, bits: &[u32]) -> ClusteringState {
         assert_eq!(bits.len() as u64, self.words);
-        self.upload(|c| &c.buffers.cluster_bits, bits);
+        self.upload(BufferName::ClusterBits, bits);
         self.run(|r, frame| {
             scan::compact(r, frame, 0);
             readback::states(r, frame);
@@ -157,8 +162,8 @@ impl Bench {
         });
         let state = self.engine.states(&self.session, 0)[0];
         Lists {
-            offsets: self.download(|c| &c.buffers.list_offsets, state.visible as usize + 1),
-            indices: self.download(|c| &c.buffers.light_indices, state.index_total.max(1) as usize),
+            offsets: self.download(BufferName::ListOffsets, state.visible as usize + 1),
+            indices: self.download(BufferName::LightIndices, state.index_total.max(1) as usize),
         }
     }
 }
@@ -209,9 +214,9 @@ fn compaction_equals_its_twin_at_odd_sizes() {
         let twin = cpu::compact(&fragments_of(&bits, clusters));
         let state = bench.compact(&bits);
         assert_eq!(state.visible_total as usize, twin.visible.len(), "{clusters} clusters");
-        let visible = bench.download(|c| &c.buffers.visible_clusters, state.visible as usize);
+        let visible = bench.download(BufferName::VisibleClusters, state.visible as usize);
         assert_eq!(visible, twin.visible, "{clusters} clusters");
-        let ranks = bench.download(|c| &c.buffers.word_ranks, bits.len());
+        let ranks = bench.download(BufferName::WordRanks, bits.len());
         let counts: Vec<u32> = bits.iter().map(|word| word.count_ones()).collect();
         assert_eq!(ranks, cpu::scan(&counts)[..bits.len()], "{clusters} clusters");
     }
@@ -225,7 +230,7 @@ fn visible_clusters_beyond_the_capacity_are_counted() {
     let twin = cpu::compact(&fragments_of(&bits, 5000));
     let state = bench.compact(&bits);
     assert_eq!((state.visible_total as usize, state.visible), (twin.visible.len(), 100));
-    assert_eq!(bench.download(|c| &c.buffers.visible_clusters, 100), twin.visible[..100]);
+    assert_eq!(bench.download(BufferName::VisibleClusters, 100), twin.visible[..100]);
 }
 
 #[test]
@@ -236,13 +241,13 @@ fn list_offsets_equal_their_twin_at_odd_sizes() {
         let state = bench.compact(&random_bits(u64::from(clusters), 1, 1));
         let mut random = noise(u64::from(clusters));
         let counts: Vec<u32> = (0..state.visible).map(|_| random() % 100).collect();
-        bench.upload(|c| &c.buffers.list_lengths, &counts);
+        bench.upload(BufferName::ListLengths, &counts);
         bench.run(|r, frame| {
             scan::light_offsets(r, frame, 0);
             readback::states(r, frame);
         });
         let twin = cpu::scan(&counts);
-        assert_eq!(bench.download(|c| &c.buffers.list_offsets, twin.len()), twin, "{clusters} clusters");
+        assert_eq!(bench.download(BufferName::ListOffsets, twin.len()), twin, "{clusters} clusters");
         assert_eq!(Some(&bench.engine.states(&bench.session, 0)[0].index_total), twin.last());
     }
 }
@@ -254,12 +259,12 @@ fn totals_beyond_32_bits_saturate_and_offsets_never_descend() {
         let room = Capacities { visible_clusters: clusters, light_indices: 16 };
         let mut bench = Bench::new(ORTHO, box_grid([clusters, 1, 1]), &lights(10), room);
         let state = bench.compact(&random_bits(u64::from(clusters), 1, 1));
-        bench.upload(|c| &c.buffers.list_lengths, &vec![1 << 24; state.visible as usize]);
+        bench.upload(BufferName::ListLengths, &vec![1 << 24; state.visible as usize]);
         bench.run(|r, frame| {
             scan::light_offsets(r, frame, 0);
             readback::states(r, frame);
         });
-        let offsets = bench.download(|c| &c.buffers.list_offsets, clusters as usize + 1);
+        let offsets = bench.download(BufferName::ListOffsets, clusters as usize + 1);
         let twin: Vec<u32> =
             (0..=u64::from(clusters)).map(|i| (i << 24).min(u64::from(u32::MAX)) as u32).collect();
         assert!(offsets == twin, "{clusters} clusters");

@@ -29,7 +29,7 @@ fn lists_of(
         .map(|lights| {
             bench.engine.write_host_data(&mut bench.session, 0, &plan, lights).unwrap();
             if lists_room == Room::None {
-                let grid = &bench.engine.clusterings[0].grids[0];
+                let grid = &bench.engine.clusterings[0].host[0][BufferName::Grid];
                 grid.write(offset_of!(GridData, mask_capacity) as u64, &[0u32]);
                 grid.write(offset_of!(GridData, group_capacity) as u64, &[0u32]);
             }

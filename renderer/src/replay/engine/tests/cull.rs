@@ -41,8 +41,9 @@ fn drawn(bench: &mut Bench) -> (Vec<u32>, Vec<DrawCommand>) {
     bench.run(|r, frame| {
         cull::record(r, frame, Eyes::One(0));
         let Draws::Indirect { buffers, .. } = &frame.draws else { panic!("the device culls by default") };
-        readback::copy(r, &buffers.commands, &commands, 0, commands.size);
-        readback::copy(r, &buffers.drawn_instances, &instances, 0, instances.size);
+        for (from, to) in [(&buffers.commands, &commands), (&buffers.drawn_instances, &instances)] {
+            r.copy(&BufferCopy { from, to, offset: 0, size: to.size });
+        }
     });
     let counts = bench.session.draw_slots.counts;
     let list: Vec<u32> = instances.read(0, counts.instances as usize);

@@ -39,7 +39,7 @@ impl Culling {
             light_upload::record(r, frame);
             assign::transform_lights(r, frame, 0);
         });
-        let spheres = bench.spheres(|c| &c.buffers.light_spheres, lights.len());
+        let spheres = bench.spheres(BufferName::LightSpheres, lights.len());
         bench.run(|r, frame| cull_lights::cull_lights(r, frame, 0));
         Self { bench, grid, visible, test: test.of(&method), lights: lights.len() as u32, spheres }
     }
@@ -56,20 +56,20 @@ impl Culling {
     /// What the device has as candidates, and as their spheres.
     fn candidates(&mut self) -> (Vec<Candidate>, Vec<[f32; 4]>) {
         let count = self.state().candidates as usize;
-        let words = self.bench.download(|c| &c.buffers.candidates, 4 * count.max(1));
+        let words = self.bench.download(BufferName::Candidates, 4 * count.max(1));
         let unpacked = words
             .chunks_exact(4)
             .take(count)
             .map(|w| Candidate { light: w[0], cells: unpack([w[1], w[2], w[3]]) });
         let unpacked = unpacked.collect();
-        (unpacked, self.bench.spheres(|c| &c.buffers.light_spheres, count))
+        (unpacked, self.bench.spheres(BufferName::LightSpheres, count))
     }
 
     /// Counts lights, and gives how many tests that took.
     fn count(&mut self) -> u64 {
-        self.bench.upload(|c| &c.buffers.counters, &[0; 2 * COUNTER_COUNT]);
+        self.bench.upload(BufferName::Counters, &[0; 2 * COUNTER_COUNT]);
         self.bench.run(|r, frame| assign::count_lights(r, frame, 0));
-        let words = self.bench.download(|c| &c.buffers.counters, 2 * COUNTER_COUNT);
+        let words = self.bench.download(BufferName::Counters, 2 * COUNTER_COUNT);
         DeviceCounts::from_words(&words).intersection_tests
     }
 
@@ -81,15 +81,15 @@ impl Culling {
         });
         let state = self.state();
         Lists {
-            offsets: self.bench.download(|c| &c.buffers.list_offsets, state.visible as usize + 1),
-            indices: self.bench.download(|c| &c.buffers.light_indices, state.index_total.max(1) as usize),
+            offsets: self.bench.download(BufferName::ListOffsets, state.visible as usize + 1),
+            indices: self.bench.download(BufferName::LightIndices, state.index_total.max(1) as usize),
         }
     }
 }
 
 impl Bench {
-    fn spheres(&mut self, pick: impl Fn(&Clustering) -> &Buffer, count: usize) -> Vec<[f32; 4]> {
-        let words = self.download(pick, 4 * count.max(1));
+    fn spheres(&mut self, name: BufferName, count: usize) -> Vec<[f32; 4]> {
+        let words = self.download(name, 4 * count.max(1));
         words.chunks_exact(4).take(count).map(|w| std::array::from_fn(|i| f32::from_bits(w[i]))).collect()
     }
 }
@@ -119,7 +119,7 @@ fn culled_lights_equal_their_twin() {
     for (case, (method, test, lights)) in cases().into_iter().enumerate() {
         let mut culling = Culling::new(Assign::Scatter, method, test, &lights);
         let blocks = cpu::mark_blocks(&culling.grid, &culling.visible);
-        let words = culling.bench.download(|c| &c.buffers.block_bits, BLOCK_WORDS as usize);
+        let words = culling.bench.download(BufferName::BlockBits, BLOCK_WORDS as usize);
         assert!(words == blocks.words(), "case {case}: other blocks");
         let (device, spheres) = culling.candidates();
         let twin = cpu::cull_lights(&culling.visible(), &culling.spheres, culling.test, EPSILON);
@@ -145,8 +145,8 @@ fn the_hierarchy_equals_its_twin() {
         culling.bench.run(|r, frame| hierarchy::build_hierarchy(r, frame, 0));
         let order = sorted_as_their_twin(&mut culling, &spheres);
         let sorted: Vec<[f32; 4]> = order.iter().map(|&number| spheres[number as usize]).collect();
-        assert!(culling.bench.spheres(|c| &c.buffers.tree_spheres, sorted.len()) == sorted, "case {case}");
-        assert_eq!(culling.bench.download(|c| &c.buffers.tree_lights, order.len()), order, "case {case}");
+        assert!(culling.bench.spheres(BufferName::TreeSpheres, sorted.len()) == sorted, "case {case}");
+        assert_eq!(culling.bench.download(BufferName::TreeLights, order.len()), order, "case {case}");
         let tree = cpu::build_nodes(sorted, culling.lights);
         nodes_equal(&mut culling, &tree);
         let descent = cpu::descend(&culling.visible(), &tree, culling.test, EPSILON);
@@ -162,7 +162,7 @@ fn the_hierarchy_equals_its_twin() {
 fn sorted_as_their_twin(culling: &mut Culling, spheres: &[[f32; 4]]) -> Vec<u32> {
     let twin = cpu::keys(&culling.grid, spheres, culling.lights, 0.02);
     let half = ((sort_passes(culling.lights) - 1) & 1) * culling.lights;
-    let words = culling.bench.download(|c| &c.buffers.sort_items, 2 * (half as usize + spheres.len()));
+    let words = culling.bench.download(BufferName::SortItems, 2 * (half as usize + spheres.len()));
     let items: Vec<(u32, u32)> = words[2 * half as usize..].chunks_exact(2).map(|w| (w[0], w[1])).collect();
     let mut keys = vec![u32::MAX; spheres.len()];
     for &(key, number) in &items {
@@ -182,7 +182,7 @@ fn nodes_equal(culling: &mut Culling, tree: &cpu::Tree) {
     let depths = tree_depth(culling.lights);
     let first = |depth: u32| (TREE_WIDTH.pow(depth) - 1) / (TREE_WIDTH - 1);
     let last = first(depths - 1) as usize + tree.depths[depths as usize - 2].len();
-    let words = culling.bench.download(|c| &c.buffers.light_nodes, 8 * last);
+    let words = culling.bench.download(BufferName::LightNodes, 8 * last);
     for (depth, nodes) in (1..depths).zip(&tree.depths) {
         for (place, node) in nodes.iter().enumerate() {
             let at = 8 * (first(depth) as usize + place);
@@ -218,10 +218,10 @@ fn scattering_equals_its_twin() {
         let tests = culling.count();
         let state = culling.state();
         let groups = cpu::scatter_groups(&culling.visible(), &candidates);
-        let words = culling.bench.download(|c| &c.buffers.light_nodes, 6 * groups.len());
+        let words = culling.bench.download(BufferName::Groups, 6 * groups.len());
         let tiles: u32 = groups.iter().map(cpu::Group::tiles).sum();
-        let tile_groups = culling.bench.download(|c| &c.buffers.digit_counts, tiles.max(1) as usize);
-        let group_lights = culling.bench.download(|c| &c.buffers.tree_lights, 64 * tiles.max(1) as usize);
+        let tile_groups = culling.bench.download(BufferName::TileGroups, tiles.max(1) as usize);
+        let group_lights = culling.bench.download(BufferName::GroupLights, 64 * tiles.max(1) as usize);
         assert_eq!((state.tiles, state.listed), (tiles, 1), "case {case}");
         for (number, (group, w)) in (0u32..).zip(groups.iter().zip(words.chunks_exact(6))) {
             assert_eq!(unpack([w[0], w[1], w[2]]), group.cells, "case {case}, group {number}");
@@ -252,9 +252,9 @@ fn lists_are_read_off_their_bits_as_by_their_twin() {
         let state = culling.state();
         assert_eq!((state.masked, state.mask_words), (1, state.candidates.div_ceil(32)));
         let words = (state.visible * state.mask_words) as usize;
-        let masks = culling.bench.download(|c| &c.buffers.light_masks, words);
+        let masks = culling.bench.download(BufferName::LightMasks, words);
         let twin = cpu::read_masks(&masks, state.mask_words as usize);
-        let lengths = culling.bench.download(|c| &c.buffers.list_lengths, twin.len());
+        let lengths = culling.bench.download(BufferName::ListLengths, twin.len());
         assert_eq!(lengths, twin.iter().map(|list| list.len() as u32).collect::<Vec<_>>());
         let lists = culling.finish();
         assert_eq!(lists.offsets, cpu::scan(&lengths));
@@ -270,7 +270,8 @@ fn lists_are_read_off_their_bits_as_by_their_twin() {
 fn lists_in_any_order_are_sorted_as_by_their_twin() {
     let (method, test, lights) = cases().remove(0);
     let mut culling = Culling::new(Assign::Scatter, method, test, &lights);
-    culling.bench.engine.clusterings[0].grids[0].write(offset_of!(GridData, mask_capacity) as u64, &[0u32]);
+    culling.bench.engine.clusterings[0].host[0][BufferName::Grid]
+        .write(offset_of!(GridData, mask_capacity) as u64, &[0u32]);
     culling.bench.run(|r, frame| cull_lights::cull_lights(r, frame, 0));
     let (candidates, _) = culling.candidates();
     culling.count();
@@ -281,13 +282,11 @@ fn lists_in_any_order_are_sorted_as_by_their_twin() {
         assign::write_lists(r, frame, 0);
     });
     let total = culling.state().index_total as usize;
-    let offsets = culling.bench.download(|c| &c.buffers.list_offsets, state.visible as usize + 1);
-    let unsorted = Lists {
-        indices: culling.bench.download(|c| &c.buffers.light_indices, total),
-        offsets: offsets.clone(),
-    };
+    let offsets = culling.bench.download(BufferName::ListOffsets, state.visible as usize + 1);
+    let unsorted =
+        Lists { indices: culling.bench.download(BufferName::LightIndices, total), offsets: offsets.clone() };
     culling.bench.run(|r, frame| assign::sort_lists(r, frame, 0));
-    let sorted = Lists { indices: culling.bench.download(|c| &c.buffers.light_indices, total), offsets };
+    let sorted = Lists { indices: culling.bench.download(BufferName::LightIndices, total), offsets };
     for list in 0..state.visible as usize {
         let twin = cpu::sort_lists(unsorted.of(list), |number| candidates[number as usize].light);
         assert_eq!(sorted.of(list), twin, "list {list}");

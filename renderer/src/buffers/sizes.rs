@@ -1,10 +1,8 @@
 //! Sizes of a clustering's buffers, and what a device must hold and dispatch for them: pure.
 
+use super::BufferName;
 use crate::assign::{self, Assigner};
-use crate::gpu_interface::{
-    ASSIGN_GROUP, BLOCK_WORDS, COUNTER_COUNT, Candidate, ClusterGroup, DISPATCH_COUNT, DispatchSize,
-    LightData, LightNode, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS, TEXELS,
-};
+use crate::gpu_interface::{ASSIGN_GROUP, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS};
 use crate::measure::Capacities;
 use crate::vk::{Limits, texel_bytes};
 use crate::{Error, Result};
@@ -34,29 +32,54 @@ impl ClusteringSizes {
         self.clusters.div_ceil(32)
     }
 
+    /// Visible clusters that fit.
+    pub(super) fn visible(&self) -> u64 {
+        self.capacities.visible_clusters.into()
+    }
+
+    /// Where their lists begin, and where the last one ends; none without clusters.
+    pub(super) fn offsets(&self) -> u64 {
+        if self.visible() > 0 { self.visible() + 1 } else { 0 }
+    }
+
     /// Words of the bits of all lists.
-    pub(super) fn mask_words(&self) -> u64 {
+    pub fn mask_words(&self) -> u64 {
         assign::mask_capacity(self.lights, self.capacities.visible_clusters)
     }
 
-    /// Lights, where there are candidates among them.
-    fn culled_lights(&self) -> u64 {
-        if self.assigner == Assigner::Brute { 0 } else { u64::from(self.lights) }
+    /// `size` where runs count, else nothing.
+    pub(super) fn counted(&self, size: u64) -> u64 {
+        if self.counting { size } else { 0 }
+    }
+
+    /// `size` where lights are culled before they are assigned, else nothing.
+    pub(super) fn culled(&self, size: u64) -> u64 {
+        if self.assigner == Assigner::Brute { 0 } else { size }
+    }
+
+    /// Words of a bit for each light that may be a candidate.
+    pub(super) fn culled_words(&self) -> u64 {
+        self.culled(self.lights.into()).div_ceil(32)
     }
 
     /// Lights in the hierarchy.
-    fn tree_lights(&self) -> u64 {
+    pub(super) fn tree_lights(&self) -> u64 {
         if self.assigner == Assigner::Hierarchy { u64::from(self.lights) } else { 0 }
     }
 
+    /// Nodes above them.
+    pub(super) fn nodes(&self) -> u64 {
+        if self.tree_lights() > 0 { assign::tree_nodes(self.lights) } else { 0 }
+    }
+
     /// Groups of visible clusters that scatter makes.
-    fn groups(&self) -> u64 {
+    pub(super) fn groups(&self) -> u64 {
         let groups = u64::from(self.capacities.visible_clusters.div_ceil(ASSIGN_GROUP));
         if self.assigner == Assigner::Scatter { groups } else { 0 }
     }
 
     /// Lights of groups that are listed.
-    pub(super) fn group_lights(&self) -> u64 {
+    pub fn group_lights(&self) -> u64 {
         if self.assigner == Assigner::Scatter {
             assign::group_capacity(self.lights, self.groups())
         } else {
@@ -64,49 +87,24 @@ impl ClusteringSizes {
         }
     }
 
+    /// Tiles of those.
+    pub(super) fn group_tiles(&self) -> u64 {
+        self.group_lights() / u64::from(ASSIGN_GROUP)
+    }
+
     /// Counts of the digits of all blocks of the sort.
-    fn digit_counts(&self) -> u64 {
+    pub(super) fn digit_counts(&self) -> u64 {
         self.tree_lights().div_ceil(u64::from(SORT_BLOCK)) * u64::from(SORT_DIGITS)
     }
 
-    /// Bytes of each buffer, in binding order of those that [`super::ClusteringBuffers`] makes.
-    pub(super) fn bytes(&self) -> [(&'static str, u64); 21] {
-        let counting = u64::from(self.counting);
-        let visible = u64::from(self.capacities.visible_clusters);
-        let nodes = if self.tree_lights() > 0 { assign::tree_nodes(self.lights) } else { 0 };
-        let blocks = self.scan_items().div_ceil(u64::from(SCAN_BLOCK));
-        [
-            ("light_spheres", 16 * u64::from(self.lights)),
-            ("cluster_bits", 4 * self.words()),
-            ("word_ranks", 4 * self.words()),
-            ("visible_clusters", 4 * visible),
-            ("block_sums", 4 * blocks),
-            ("list_lengths", 4 * visible),
-            ("list_offsets", 4 * (visible + 1)),
-            ("light_indices", 4 * u64::from(self.capacities.light_indices)),
-            ("dispatches", u64::from(DISPATCH_COUNT) * size_of::<DispatchSize>() as u64),
-            ("counters", 8 * COUNTER_COUNT as u64),
-            ("visible_fragments", 4 * visible * counting),
-            ("lights_per_fragment", 4 * (u64::from(self.lights) + 1) * counting),
-            ("light_masks", 4 * self.mask_words()),
-            ("sort_items", 2 * 8 * self.tree_lights()),
-            ("digit_counts", 4 * (self.digit_counts() + self.group_lights() / u64::from(ASSIGN_GROUP))),
-            ("tree_spheres", 16 * self.tree_lights()),
-            ("tree_lights", 4 * (self.tree_lights() + self.group_lights())),
-            (
-                "light_nodes",
-                size_of::<LightNode>() as u64 * nodes + size_of::<ClusterGroup>() as u64 * self.groups(),
-            ),
-            ("block_bits", 4 * u64::from(BLOCK_WORDS)),
-            ("light_bits", 2 * 4 * self.culled_lights().div_ceil(32)),
-            ("candidates", size_of::<Candidate>() as u64 * self.culled_lights()),
-        ]
+    /// Blocks of the longest prefix sum.
+    pub(super) fn scan_blocks(&self) -> u64 {
+        self.scan_items().div_ceil(u64::from(SCAN_BLOCK))
     }
 
     /// Items of the longest prefix sum.
     fn scan_items(&self) -> u64 {
-        let visible = u64::from(self.capacities.visible_clusters);
-        self.words().max(visible).max(self.digit_counts()).max(self.culled_lights().div_ceil(32))
+        self.words().max(self.visible()).max(self.digit_counts()).max(self.culled_words())
     }
 
     /// The most entries that the device's buffers hold.
@@ -122,8 +120,8 @@ impl ClusteringSizes {
 
     /// Refuses what the device cannot hold or dispatch, naming the largest fault.
     pub fn check(&self, limits: &Limits) -> Result<()> {
-        let lights = ("lights", size_of::<LightData>() as u64 * u64::from(self.lights));
-        for (name, size) in self.bytes().into_iter().chain([lights]) {
+        for info in BufferName::ALL.map(BufferName::info) {
+            let (name, size) = (info.name, info.size.map_or(0, |size| size(self)));
             let too_much = |what: String| {
                 Error::Device(format!(
                     "buffer {name} would {what} ({} clusters, {} lights, {} visible clusters, {} light indices): use \
@@ -138,7 +136,8 @@ impl ClusteringSizes {
             if size > most {
                 return Err(too_much(format!("need {size} bytes but the device binds at most {most}")));
             }
-            let (texels, most) = (texels(name, size), limits.max_texel_buffer_elements);
+            let texels = info.texels.map_or(0, |texels| size / texel_bytes(texels.format()));
+            let most = limits.max_texel_buffer_elements;
             if texels > most {
                 return Err(too_much(format!(
                     "be read as {texels} texels but the device takes at most {most}"
@@ -149,7 +148,7 @@ impl ClusteringSizes {
         let (lights, visible) = (self.lights, self.capacities.visible_clusters);
         let tiles = u64::from(lights.div_ceil(ASSIGN_GROUP));
         let groups = u64::from(visible.div_ceil(ASSIGN_GROUP));
-        let blocks = self.scan_items().div_ceil(u64::from(SCAN_BLOCK));
+        let blocks = self.scan_blocks();
         for (what, workgroups, most) in [
             (format!("{lights} lights"), tiles, most_x.min(most_y)),
             (format!("{visible} visible clusters"), groups, most_x),
@@ -164,12 +163,6 @@ impl ClusteringSizes {
         }
         Ok(())
     }
-}
-
-/// How many texels a buffer is read as; none where it is not.
-fn texels(name: &str, size: u64) -> u64 {
-    let found = TEXELS.iter().find(|(buffer, ..)| *buffer == name);
-    found.map_or(0, |&(_, _, format)| size / texel_bytes(format))
 }
 
 #[cfg(test)]

@@ -1,0 +1,253 @@
+//! Every buffer that shaders see, declared once: names, GLSL, views, owners and sizes. Binding numbers, the declarations
+//! that shaders include, buffers with their debug names, their texel views and the checks of limits follow.
+//!
+//! ```text
+//! views ─┬─> cluster_bits ──scan──> word_ranks, visible_clusters ─┐
+//! grid ──┘      (mark)                                            ├─> list_lengths ──scan──> list_offsets ───┐
+//! lights ─────> light_spheres ────────────────────────────────────┘   (count_lights)                         │
+//!               (transform_lights)             └──────────────────────────> light_indices (assign_lights) <──┘
+//! ```
+//!
+//! World space, on the device, is relative to the frame's origin (see [`crate::origin`]). `slice_planes`, which the host
+//! writes with `grid`, are the depths between the slices of a perspective grid, so that a fragment's slice and the planes
+//! that lights are tested against are the same numbers, whatever a device makes of logarithms.
+//!
+//! Where the device culls, `views`, `instances`, `draw_slots` and `draw_order` go to `draw_commands` and
+//! `drawn_instances` before all that (cull).
+//!
+//! All ways go to `list_lengths` by way of `light_masks` where these have room. Hierarchy and scatter first put the lights
+//! that may meet a visible cluster into `candidates` (cull_lights: `block_bits`, `light_bits`); then the hierarchy makes
+//! `sort_items`, `digit_counts`, `tree_spheres`, `tree_lights` and `light_nodes`, scatter `groups`, `tile_groups` and
+//! `group_lights`.
+
+mod info;
+mod set;
+mod sizes;
+
+pub use info::{BufferInfo, Element, Owner, Texels, View};
+pub use set::{BufferSet, set};
+pub use sizes::ClusteringSizes;
+
+use crate::gpu_interface::{
+    BLOCK_WORDS, COUNTER_COUNT, Candidate, ClusterGroup, ClusteringState, DISPATCH_COUNT, DispatchSize,
+    GridData, InstanceData, LightData, LightNode, PixelData,
+};
+use info::{buffer, bytes};
+
+/// Declares the names and what they name.
+macro_rules! buffers {
+    ($($(#[$doc:meta])* $name:ident = $info:expr;)+) => {
+        /// A buffer that shaders see.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+        #[repr(u32)]
+        pub enum BufferName { $($(#[$doc])* $name),+ }
+
+        impl BufferName {
+            /// All of them, in the order of their bindings.
+            pub const ALL: [Self; BUFFER_COUNT] = [$(Self::$name),+];
+        }
+
+        /// How many there are.
+        pub const BUFFER_COUNT: usize = [$(stringify!($name)),+].len();
+
+        static BUFFERS: [BufferInfo; BUFFER_COUNT] = [$($info),+];
+    };
+}
+
+buffers! {
+    /// What rendering cameras see; of a uniform buffer llvmpipe reads a word once for all lanes, also where the flow of
+    /// control has parted.
+    Views = buffer("views", Owner::Frame).uniform("ViewData views[MAX_VIEWS]");
+    /// The grid of a clustering.
+    Grid = buffer("grid", Owner::ClusteringFrame).uniform("GridData grid").sized(|_| bytes::<GridData>(1));
+    /// Depths between the slices of a perspective grid.
+    SlicePlanes = buffer("slice_planes", Owner::ClusteringFrame)
+        .storage("float slice_planes[]")
+        .sized(|s| bytes::<f32>(s.slice_planes.into()));
+    /// Lights, or candidates, in clustering space: centre, radius.
+    LightSpheres = buffer("light_spheres", Owner::Clustering)
+        .storage("vec4 light_spheres[]")
+        .texels("sphere", Element::Vec4)
+        .sized(|s| bytes::<[f32; 4]>(s.lights.into()));
+    /// A bit per cluster.
+    ClusterBits = buffer("cluster_bits", Owner::Clustering)
+        .storage("uint cluster_bits[]")
+        .sized(|s| bytes::<u32>(s.words()));
+    /// Visible clusters before each word of bits.
+    WordRanks = buffer("word_ranks", Owner::Clustering)
+        .storage("uint word_ranks[]")
+        .sized(|s| bytes::<u32>(s.words()));
+    /// Linear indices, ascending.
+    VisibleClusters = buffer("visible_clusters", Owner::Clustering)
+        .storage("uint visible_clusters[]")
+        .sized(|s| bytes::<u32>(s.visible()));
+    /// Sums of the blocks of a prefix sum.
+    BlockSums = buffer("block_sums", Owner::Clustering)
+        .storage("uint block_sums[]")
+        .sized(|s| bytes::<u32>(s.scan_blocks()));
+    /// How many lights each list has.
+    ListLengths = buffer("list_lengths", Owner::Clustering)
+        .storage("uint list_lengths[]")
+        .sized(|s| bytes::<u32>(s.visible()));
+    /// Where each list begins, and the total.
+    ListOffsets = buffer("list_offsets", Owner::Clustering)
+        .storage("uint list_offsets[]")
+        .sized(|s| bytes::<u32>(s.offsets()));
+    /// The lights of the lists.
+    LightIndices = buffer("light_indices", Owner::Clustering)
+        .storage("uint light_indices[]")
+        .texels("index", Element::Word)
+        .sized(|s| bytes::<u32>(s.capacities.light_indices.into()));
+    /// What the device finds out: `new_state` is written, `state` is what earlier dispatches wrote.
+    State = buffer("state", Owner::Clustering)
+        .storage("ClusteringState new_state")
+        .uniform("ClusteringState state")
+        .sized(|_| bytes::<ClusteringState>(1));
+    /// Sizes of indirect dispatches.
+    Dispatches = buffer("dispatches", Owner::Clustering)
+        .storage("DispatchSize dispatches[]")
+        .sized(|_| bytes::<DispatchSize>(DISPATCH_COUNT.into()));
+    /// 64-bit counters of atemporal runs.
+    Counters = buffer("counters", Owner::Clustering)
+        .storage("uint counters[]")
+        .sized(|s| s.counted(bytes::<u64>(COUNTER_COUNT as u64)));
+    /// Fragments of each visible cluster, in atemporal runs.
+    VisibleFragments = buffer("visible_fragments", Owner::Clustering)
+        .storage("uint visible_fragments[]")
+        .sized(|s| s.counted(bytes::<u32>(s.visible())));
+    /// Fragments by how many lights were evaluated for them, in atemporal runs.
+    LightsPerFragment = buffer("lights_per_fragment", Owner::Clustering)
+        .storage("uint lights_per_fragment[]")
+        .sized(|s| s.counted(bytes::<u32>(u64::from(s.lights) + 1)));
+    /// What is known of each pixel of a view, in atemporal runs.
+    Pixels = buffer("pixels", Owner::Clustering)
+        .storage("PixelData pixels[]")
+        .sized(|s| s.counted(bytes::<PixelData>(s.pixels)));
+    /// The scene's instances, in drawing order.
+    Instances = buffer("instances", Owner::Scene)
+        .storage("InstanceData instances[]")
+        .texels("instance", Element::Struct(InstanceData::INFO));
+    /// Bits of the lists, a bit a light.
+    LightMasks = buffer("light_masks", Owner::Clustering)
+        .storage("uint light_masks[]")
+        .texels("mask", Element::Word)
+        .sized(|s| bytes::<u32>(s.mask_words()));
+    /// Key and candidate, in two halves.
+    SortItems = buffer("sort_items", Owner::Clustering)
+        .storage("uvec2 sort_items[]")
+        .sized(|s| bytes::<[u32; 2]>(2 * s.tree_lights()));
+    /// Items of the sort by digit, then by block.
+    DigitCounts = buffer("digit_counts", Owner::Clustering)
+        .storage("uint digit_counts[]")
+        .sized(|s| bytes::<u32>(s.digit_counts()));
+    /// `light_spheres` in the order of the hierarchy.
+    TreeSpheres = buffer("tree_spheres", Owner::Clustering)
+        .storage("vec4 tree_spheres[]")
+        .texels("tree", Element::Vec4)
+        .sized(|s| bytes::<[f32; 4]>(s.tree_lights()));
+    /// The numbers of those among the candidates.
+    TreeLights = buffer("tree_lights", Owner::Clustering)
+        .storage("uint tree_lights[]")
+        .sized(|s| bytes::<u32>(s.tree_lights()));
+    /// The nodes of the hierarchy.
+    LightNodes = buffer("light_nodes", Owner::Clustering)
+        .storage("LightNode light_nodes[]")
+        .texels("node", Element::Struct(LightNode::INFO))
+        .sized(|s| bytes::<LightNode>(s.nodes()));
+    /// Scatter's groups of visible clusters.
+    Groups = buffer("groups", Owner::Clustering)
+        .storage("ClusterGroup groups[]")
+        .sized(|s| bytes::<ClusterGroup>(s.groups()));
+    /// The group of each tile of lights.
+    TileGroups = buffer("tile_groups", Owner::Clustering)
+        .storage("uint tile_groups[]")
+        .sized(|s| bytes::<u32>(s.group_tiles()));
+    /// The candidates of each group, in whole tiles.
+    GroupLights = buffer("group_lights", Owner::Clustering)
+        .storage("uint group_lights[]")
+        .sized(|s| bytes::<u32>(s.group_lights()));
+    /// Blocks that hold visible clusters, a bit each.
+    BlockBits = buffer("block_bits", Owner::Clustering)
+        .storage("uint block_bits[]")
+        .texels("block", Element::Word)
+        .sized(|s| bytes::<u32>(s.culled(BLOCK_WORDS.into())));
+    /// Lights that may meet a visible cluster, a bit each; behind them, how many there are before each word.
+    LightBits = buffer("light_bits", Owner::Clustering)
+        .storage("uint light_bits[]")
+        .sized(|s| bytes::<u32>(2 * s.culled_words()));
+    /// Lights that may meet a visible cluster, ascending.
+    Candidates = buffer("candidates", Owner::Clustering)
+        .storage("Candidate candidates[]")
+        .texels("candidate", Element::Struct(Candidate::INFO))
+        .sized(|s| bytes::<Candidate>(s.culled(s.lights.into())));
+    /// The frame's lights.
+    Lights = buffer("lights", Owner::Engine)
+        .texels("light", Element::Struct(LightData::INFO))
+        .sized(|s| bytes::<LightData>(s.lights.into()));
+    /// What is drawn of the scene where the device culls.
+    DrawSlots = buffer("draw_slots", Owner::Scene).storage("DrawCommand draw_slots[]");
+    /// How many of them there are, and the order of the transparent ones.
+    DrawOrder = buffer("draw_order", Owner::Frame).storage("DrawCounts draw_counts; uint draw_order[]");
+    /// What stage `cull` lets through of the slots: a part for each view, and one for all at once.
+    DrawCommands = buffer("draw_commands", Owner::Session).storage("DrawCommand draw_commands[]");
+    /// The instances that those draw.
+    DrawnInstances = buffer("drawn_instances", Owner::Session).storage("uint drawn_instances[]");
+}
+
+impl BufferName {
+    /// All that is declared of it.
+    pub fn info(self) -> &'static BufferInfo {
+        &BUFFERS[self as usize]
+    }
+
+    /// The binding of one way to read it; not every binding is taken.
+    pub fn binding(self, view: View) -> u32 {
+        View::COUNT * self as u32 + view as u32
+    }
+
+    /// What a binding stands for.
+    pub fn bound_at(binding: u32) -> Option<(Self, View)> {
+        let name = Self::ALL.get((binding / View::COUNT) as usize)?;
+        Some((*name, View::ALL[(binding % View::COUNT) as usize]))
+    }
+}
+
+/// Declarations of all buffers, and functions that read what is viewed as texels, in GLSL.
+pub fn glsl() -> String {
+    BufferName::ALL.into_iter().map(BufferName::glsl).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_binding_says_whose_it_is() {
+        for name in BufferName::ALL {
+            for view in View::ALL {
+                assert_eq!(BufferName::bound_at(name.binding(view)), Some((name, view)));
+            }
+        }
+        assert_eq!(BufferName::bound_at(View::COUNT * BUFFER_COUNT as u32), None);
+    }
+
+    #[test]
+    fn names_differ_and_whoever_makes_a_clusterings_buffer_knows_its_size() {
+        let mut names: Vec<_> = BufferName::ALL.iter().map(|name| name.info().name).collect();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), BUFFER_COUNT);
+        for name in BufferName::ALL {
+            let owned = matches!(name.info().owner, Owner::Clustering | Owner::ClusteringFrame);
+            assert!(!owned || name.info().size.is_some(), "{name:?}");
+        }
+    }
+
+    #[test]
+    fn a_struct_that_is_read_as_texels_has_a_function_that_reads_it() {
+        let text = glsl();
+        assert!(text.contains("LightData read_light(uint index)"), "{text}");
+        assert!(text.contains("uniform utextureBuffer candidate_texels;"), "{text}");
+        assert!(text.contains("readonly buffer InstancesBuffer { InstanceData instances[]; };"), "{text}");
+    }
+}

@@ -1,0 +1,102 @@
+//! A pipeline with its layout and what its shaders use.
+
+use super::{Layouts, Uses, failed, set_layout};
+use crate::Result;
+use crate::buffers::{BUFFER_COUNT, BufferSet};
+use crate::vk::{self as gpu, Context, c_string};
+use ash::vk;
+use std::ffi::CString;
+use std::sync::Arc;
+
+/// View and step.
+const PUSH_BYTES: u32 = 8;
+
+/// The layout of one pipeline: of the buffers, only those that its shaders use.
+pub struct PipelineLayout {
+    context: Arc<Context>,
+    /// For making and binding the pipeline.
+    pub handle: vk::PipelineLayout,
+    /// That of its set of buffers.
+    pub buffers: vk::DescriptorSetLayout,
+    /// What its shaders use.
+    pub uses: Uses,
+}
+
+impl PipelineLayout {
+    /// The layout for the shaders of some stages, by their SPIR-V.
+    ///
+    /// # Errors
+    /// The device binds too few storage buffers, or is out of memory.
+    pub fn new(
+        context: &Arc<Context>,
+        layouts: &Layouts,
+        name: &str,
+        stages: &[(vk::ShaderStageFlags, &[u32])],
+    ) -> Result<Self> {
+        let uses = Uses::new(name, stages)?;
+        uses.check(name, &context.info.name, context.limits.max_per_stage_storage_buffers)?;
+        let bindings: Vec<_> = uses
+            .views
+            .iter()
+            .map(|(&(buffer, view), &stages)| (buffer.binding(view), view.descriptor(), stages))
+            .collect();
+        let buffers = set_layout(context, &bindings, name)?;
+        let mut this = Self { context: context.clone(), handle: vk::PipelineLayout::null(), buffers, uses };
+        let sets = [buffers, layouts.material, layouts.depth];
+        let push = [vk::PushConstantRange::default().stage_flags(vk::ShaderStageFlags::ALL).size(PUSH_BYTES)];
+        let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets).push_constant_ranges(&push);
+        this.handle = unsafe { context.device.create_pipeline_layout(&info, None) }
+            .map_err(|e| failed("pipeline layout", name, e))?;
+        context.name(this.handle, name);
+        Ok(this)
+    }
+}
+
+impl Drop for PipelineLayout {
+    fn drop(&mut self) {
+        let device = &self.context.device;
+        unsafe {
+            device.destroy_pipeline_layout(self.handle, None);
+            device.destroy_descriptor_set_layout(self.buffers, None);
+        }
+    }
+}
+
+/// A pipeline that passes bind by what it is given to work on.
+pub struct Pipeline {
+    /// For binding.
+    pub handle: vk::Pipeline,
+    /// What it is bound with.
+    pub layout: PipelineLayout,
+    /// The shader that names it.
+    pub name: String,
+    /// What tools for captures show.
+    pub label: CString,
+    /// Which of all pipelines it is, by which its descriptor sets are found.
+    pub number: usize,
+    _pipeline: gpu::Pipeline,
+}
+
+impl Pipeline {
+    /// Pipeline `number` of the program.
+    pub fn new(pipeline: gpu::Pipeline, layout: PipelineLayout, name: &str, number: usize) -> Self {
+        let (name, label) = (name.to_owned(), c_string(name));
+        Self { handle: pipeline.handle, layout, name, label, number, _pipeline: pipeline }
+    }
+
+    /// What its shaders use.
+    pub fn uses(&self) -> &Uses {
+        &self.layout.uses
+    }
+}
+
+/// The buffers of one clustering in one frame in flight, and the sets that bind them.
+#[derive(Clone, Copy)]
+pub struct BoundBuffers<'a> {
+    /// In the order of [`crate::buffers::BufferName::ALL`].
+    pub handles: &'a [vk::Buffer; BUFFER_COUNT],
+    /// By number of the pipeline.
+    pub sets: &'a [vk::DescriptorSet],
+    /// Those that the way at hand leaves empty: nothing is read from or written to them.
+    pub empty: BufferSet,
+}

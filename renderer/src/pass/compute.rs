@@ -1,0 +1,140 @@
+//! Compute passes, a call each.
+
+use super::{Access, Declared, Recorder, Use};
+use crate::buffers::{BufferName, BufferSet};
+use crate::gpu_interface::{DispatchSize, SET_BUFFERS, SET_DEPTH};
+use crate::layouts::{BoundBuffers, Pipeline};
+use ash::vk;
+
+/// How many workgroups run.
+#[derive(Debug, Clone, Copy)]
+pub enum Size {
+    /// So many along x and y.
+    Groups(u32, u32),
+    /// As many as the device wrote into a slot of [`BufferName::Dispatches`].
+    Indirect(u32),
+}
+
+impl Size {
+    /// A thread for each of `items`, in workgroups of `group`.
+    pub fn threads(items: u32, group: u32) -> Self {
+        Self::Groups(items.div_ceil(group), 1)
+    }
+
+    /// A thread for each pixel, in workgroups of 8 by 8.
+    pub fn pixels([width, height]: [u32; 2]) -> Self {
+        Self::Groups(width.div_ceil(8), height.div_ceil(8))
+    }
+}
+
+/// What shaders are told by push constants.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Push {
+    /// Number of the view.
+    pub view: u32,
+    /// Number of the step, for pipelines that run several times in a stage.
+    pub step: u32,
+}
+
+impl Push {
+    /// The number of a view.
+    pub fn view(view: usize) -> Self {
+        Self { view: view as u32, step: 0 }
+    }
+
+    /// The number of a step.
+    pub fn step(step: u32) -> Self {
+        Self { view: 0, step }
+    }
+}
+
+/// A depth image, as compute shaders sample it.
+#[derive(Debug, Clone, Copy)]
+pub struct DepthImage {
+    /// It, with all its layers.
+    pub image: vk::Image,
+    /// The set that binds a layer of it.
+    pub set: vk::DescriptorSet,
+}
+
+/// A compute pass.
+#[derive(Clone, Copy)]
+pub struct Dispatch<'a> {
+    /// What runs.
+    pub pipeline: &'a Pipeline,
+    /// What the names of buffers stand for.
+    pub buffers: BoundBuffers<'a>,
+    /// How much of it runs.
+    pub size: Size,
+    /// Buffers that are read alone.
+    pub reads: BufferSet,
+    /// Buffers that are written, and perhaps read.
+    pub writes: BufferSet,
+    /// The depth image that is sampled.
+    pub depth: Option<DepthImage>,
+    /// What shaders are told.
+    pub push: Push,
+}
+
+impl Recorder<'_> {
+    /// Records a compute pass, after all that it reads and writes.
+    pub fn dispatch(&mut self, pass: &Dispatch) {
+        let dispatches = pass.buffers.handles[BufferName::Dispatches as usize];
+        let declared = Declared { reads: pass.reads, writes: pass.writes };
+        let sampled =
+            |depth: DepthImage| Access::image(depth.image, vk::ImageAspectFlags::DEPTH, Use::ComputeSample);
+        let indirect = matches!(pass.size, Size::Indirect(_));
+        let others = [pass.depth.map(sampled), indirect.then(|| Access::buffer(dispatches, Use::Indirect))];
+        self.prepare([pass.pipeline], &pass.buffers, declared, others);
+        self.context.begin_label(self.commands(), &pass.pipeline.label);
+        self.bind(vk::PipelineBindPoint::COMPUTE, pass.pipeline, &pass.buffers, pass.push);
+        if let Some(depth) = pass.depth {
+            self.bind_set(vk::PipelineBindPoint::COMPUTE, pass.pipeline, SET_DEPTH, depth.set);
+        }
+        let (device, commands) = (&self.context.device, self.commands());
+        match pass.size {
+            Size::Groups(x, y) => unsafe { device.cmd_dispatch(commands, x, y, 1) },
+            Size::Indirect(slot) => {
+                let offset = u64::from(slot) * size_of::<DispatchSize>() as u64;
+                unsafe { device.cmd_dispatch_indirect(commands, dispatches, offset) };
+            }
+        }
+        self.context.end_label(self.commands());
+    }
+
+    /// Binds a pipeline with what it uses of `buffers`, and pushes what its shaders are told.
+    pub fn bind(
+        &self,
+        point: vk::PipelineBindPoint,
+        pipeline: &Pipeline,
+        buffers: &BoundBuffers,
+        push: Push,
+    ) {
+        let (device, commands) = (&self.context.device, self.commands());
+        unsafe { device.cmd_bind_pipeline(commands, point, pipeline.handle) };
+        self.bind_set(point, pipeline, SET_BUFFERS, buffers.sets[pipeline.number]);
+        self.push(pipeline, push);
+    }
+
+    /// Tells a pipeline's shaders something else.
+    pub fn push(&self, pipeline: &Pipeline, push: Push) {
+        let (layout, stages) = (pipeline.layout.handle, vk::ShaderStageFlags::ALL);
+        let words = [push.view, push.step];
+        let (device, commands) = (&self.context.device, self.commands());
+        unsafe { device.cmd_push_constants(commands, layout, stages, 0, bytemuck::cast_slice(&words)) };
+    }
+
+    /// Binds one descriptor set for a pipeline.
+    pub fn bind_set(
+        &self,
+        point: vk::PipelineBindPoint,
+        pipeline: &Pipeline,
+        index: u32,
+        set: vk::DescriptorSet,
+    ) {
+        let layout = pipeline.layout.handle;
+        unsafe {
+            self.context.device.cmd_bind_descriptor_sets(self.commands(), point, layout, index, &[set], &[]);
+        }
+    }
+}

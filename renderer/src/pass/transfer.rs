@@ -1,0 +1,92 @@
+//! Fills, copies and resolves, a call each.
+
+use super::{Access, Recorder, Use};
+use crate::vk::Buffer;
+use ash::vk;
+
+/// A copy from the start of one buffer to somewhere in another.
+#[derive(Clone, Copy)]
+pub struct BufferCopy<'a> {
+    /// Where it comes from.
+    pub from: &'a Buffer,
+    /// Where it goes to.
+    pub to: &'a Buffer,
+    /// Where there, bytes.
+    pub offset: u64,
+    /// Bytes.
+    pub size: u64,
+}
+
+impl Recorder<'_> {
+    /// Zeroes a whole buffer.
+    pub fn clear(&mut self, buffer: &Buffer) {
+        self.access([Access::buffer(buffer.handle, Use::TransferWrite)]);
+        unsafe { self.context.device.cmd_fill_buffer(self.commands(), buffer.handle, 0, vk::WHOLE_SIZE, 0) };
+    }
+
+    /// Copies bytes from buffer to buffer.
+    pub fn copy(&mut self, copy: &BufferCopy) {
+        let (from, to) = (copy.from.handle, copy.to.handle);
+        self.access([Access::buffer(from, Use::TransferRead), Access::buffer(to, Use::TransferWrite)]);
+        let region = vk::BufferCopy::default().dst_offset(copy.offset).size(copy.size);
+        unsafe { self.context.device.cmd_copy_buffer(self.commands(), from, to, &[region]) };
+    }
+
+    /// Copies a part of a colour image, so large, to the start of a buffer.
+    pub fn copy_image(
+        &mut self,
+        (image, part): (vk::Image, vk::ImageSubresourceLayers),
+        [width, height]: [u32; 2],
+        to: &Buffer,
+    ) {
+        self.access([
+            Access::image(image, part.aspect_mask, Use::TransferRead),
+            Access::buffer(to.handle, Use::TransferWrite),
+        ]);
+        let region = vk::BufferImageCopy::default().image_subresource(part).image_extent(vk::Extent3D {
+            width,
+            height,
+            depth: 1,
+        });
+        let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
+        unsafe {
+            self.context.device.cmd_copy_image_to_buffer(
+                self.commands(),
+                image,
+                layout,
+                to.handle,
+                &[region],
+            );
+        }
+    }
+
+    /// Averages the samples of a part of one colour image into that of another, so large.
+    pub fn resolve(
+        &mut self,
+        from: (vk::Image, vk::ImageSubresourceLayers),
+        to: (vk::Image, vk::ImageSubresourceLayers),
+        [width, height]: [u32; 2],
+    ) {
+        self.access([
+            Access::image(from.0, from.1.aspect_mask, Use::TransferRead),
+            Access::image(to.0, to.1.aspect_mask, Use::TransferWrite),
+        ]);
+        let region = vk::ImageResolve2::default()
+            .src_subresource(from.1)
+            .dst_subresource(to.1)
+            .extent(vk::Extent3D { width, height, depth: 1 });
+        let regions = [region];
+        let info = vk::ResolveImageInfo2::default()
+            .src_image(from.0)
+            .src_image_layout(vk::ImageLayout::TRANSFER_SRC_OPTIMAL)
+            .dst_image(to.0)
+            .dst_image_layout(vk::ImageLayout::TRANSFER_DST_OPTIMAL)
+            .regions(&regions);
+        unsafe { self.context.device.cmd_resolve_image2(self.commands(), &info) };
+    }
+
+    /// Hands a mapped buffer to the host, which reads it once the frame has ended.
+    pub fn hand_over(&mut self, buffer: &Buffer) {
+        self.access([Access::buffer(buffer.handle, Use::HostRead)]);
+    }
+}
