@@ -89,9 +89,12 @@ fn pictures_equal_the_truth(runs: &[Run], views: usize) {
             }
         }
         for (counts, truth) in run.counts.iter().zip(&truth.counts) {
-            assert_eq!(counts.fragments_without_cluster, 0, "{name}");
-            assert_eq!(counts.fragments_shaded, truth.fragments_shaded, "{name}");
-            assert_eq!(counts.needed_computations, truth.needed_computations, "{name} lost a light");
+            assert_eq!(counts.counters.fragments_without_cluster, 0, "{name}");
+            assert_eq!(counts.counters.fragments_shaded, truth.counters.fragments_shaded, "{name}");
+            assert_eq!(
+                counts.counters.needed_computations, truth.counters.needed_computations,
+                "{name} lost a light"
+            );
         }
     }
 }
@@ -143,7 +146,7 @@ fn views_of_both_handednesses_are_drawn_at_once_as_one_by_one() {
         for (a, b) in single.iter().zip(&at_once) {
             assert_eq!(a.counts, b.counts, "{}", a.planned.name);
             assert!(a.lists == b.lists && a.images == b.images, "{}", a.planned.name);
-            assert!(a.counts[0].fragments_shaded > 2000);
+            assert!(a.counts[0].counters.fragments_shaded > 2000);
         }
     }
 }
@@ -226,8 +229,8 @@ fn a_mirror_shows_the_reflected_scene() {
                 [
                     counts.visible_clusters(),
                     counts.light_indices(),
-                    counts.fragments_shaded,
-                    counts.needed_computations,
+                    counts.counters.fragments_shaded,
+                    counts.counters.needed_computations,
                 ]
             };
             for (one, other) in of(a).into_iter().zip(of(b)) {

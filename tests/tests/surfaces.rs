@@ -64,7 +64,7 @@ fn draw(node: Value, material: Value, alpha: u8, samples: (u32, Marking)) -> Vec
 }
 
 fn fragments(runs: &[Run]) -> Vec<u64> {
-    runs.iter().map(|run| run.counts[0].fragments_shaded).collect()
+    runs.iter().map(|run| run.counts[0].counters.fragments_shaded).collect()
 }
 
 #[test]
@@ -107,7 +107,7 @@ fn unlit_surfaces_radiate_their_base_colour_and_no_light_is_evaluated() {
     assert_eq!(fragments(&unlit), fragments(&lit));
     for (unlit, lit) in unlit.iter().zip(&lit) {
         let (counts, pixels) = (&unlit.counts[0], &unlit.images[0].1[0]);
-        assert_eq!((counts.lighting_computations, counts.needed_computations), (0, 0));
+        assert_eq!((counts.counters.lighting_computations, counts.counters.needed_computations), (0, 0));
         let visible = |run: &Run| run.counts[0].clusterings.iter().map(|c| c.visible_clusters).sum::<u64>();
         assert_eq!(visible(unlit), visible(lit), "they mark clusters as any surface does");
         let colors = pixels.color.iter().zip(&pixels.depth).filter(|(_, depth)| depth.is_finite());
