@@ -6,6 +6,7 @@ use gltf::json;
 
 use super::super::Image;
 use super::document::Document;
+use super::left_out::LeftOut;
 use crate::Result;
 
 /// Extensions of textures that name an image, the preferred first.
@@ -17,7 +18,12 @@ pub(super) struct Choice(Vec<usize>);
 
 impl Choice {
     /// The images of `textures[index]`; with none in a format that is read the texture is left out, with a warning.
-    pub fn of(document: &Document, index: usize, texture: &json::Texture) -> Result<Option<Self>, String> {
+    pub fn of(
+        document: &Document,
+        index: usize,
+        texture: &json::Texture,
+        left_out: &mut LeftOut,
+    ) -> Result<Option<Self>, String> {
         let others = texture.extensions.as_ref().map(|extensions| &extensions.others);
         let source = |name: &&str| others.and_then(|others| others.get(*name)?.get("source")?.as_u64());
         let mut images: Vec<_> = EXTENSIONS.iter().filter_map(source).map(|image| image as usize).collect();
@@ -28,9 +34,8 @@ impl Choice {
         }
         if images.is_empty() {
             let names: Vec<_> = others.into_iter().flatten().map(|(name, _)| name.as_str()).collect();
-            let file = document.path.display();
             let by = if names.is_empty() { String::new() } else { format!(" but by {}", names.join(", ")) };
-            tracing::warn!("{file}: textures[{index}] has no image{by}, and is left out");
+            left_out.note(format!("textures[{index}] has no image{by}, and is left out"));
         }
         Ok(Some(Self(images)).filter(|choice| !choice.0.is_empty()))
     }

@@ -17,9 +17,11 @@ impl LeftOut {
         }
     }
 
-    /// Notes something that cannot be counted.
+    /// Notes something that cannot be counted; once.
     pub fn note(&mut self, what: String) {
-        self.kinds.push((what, None));
+        if self.kinds.iter().all(|(known, _)| *known != what) {
+            self.kinds.push((what, None));
+        }
     }
 
     /// One line a kind.

@@ -158,10 +158,15 @@ impl Reader<'_> {
         extensions::note_material(value, left_out);
         take_specular_glossiness(&mut json, value.get("pbrMetallicRoughness").is_some(), left_out);
         let name = json.name.clone().unwrap_or_else(|| format!("material {}", index.value()));
-        self.material(name, &json)
+        self.material(name, &json, left_out)
     }
 
-    fn material(&mut self, name: String, json: &json::Material) -> Result<(Material, UvSets), String> {
+    fn material(
+        &mut self,
+        name: String,
+        json: &json::Material,
+        left_out: &mut LeftOut,
+    ) -> Result<(Material, UvSets), String> {
         let Checked::Valid(alpha_mode) = json.alpha_mode else {
             return Err("has an unknown alphaMode".into());
         };
@@ -189,7 +194,7 @@ impl Reader<'_> {
         let uses = texture_uses(json)?;
         let sets = uv_sets(&uses)?;
         for texture in &uses {
-            let reference = self.texture(texture, &sets, content(&material, texture.slot))?;
+            let reference = self.texture(texture, &sets, content(&material, texture.slot), left_out)?;
             material.textures[texture.slot as usize] = reference;
         }
         Ok((material, sets))
@@ -200,9 +205,10 @@ impl Reader<'_> {
         texture: &Use,
         sets: &UvSets,
         content: Content,
+        left_out: &mut LeftOut,
     ) -> Result<Option<TextureRef>, String> {
         let json = self.document.get(texture.texture)?;
-        let Some(choice) = Choice::of(self.document, texture.texture.value(), &json)? else {
+        let Some(choice) = Choice::of(self.document, texture.texture.value(), &json, left_out)? else {
             return Ok(None);
         };
         let sampler = match json.sampler {

@@ -51,8 +51,8 @@ pub fn load(path: &Path, strict: bool) -> Result<Scene> {
     scene.images = materials.load_images(&mut files)?;
     let built = build_all(&geometry, &materials, &material_of_group);
     note_odd_polygons(path, &built, &mut oddities)?;
-    oddities.warn();
-    library.warn();
+    scene.warnings = oddities.warnings(path);
+    scene.warnings.extend(library.warnings(path));
     for Built { mesh, .. } in built.into_iter().filter(|built| !built.mesh.indices.is_empty()) {
         let primitive = scene.primitives.len() as u32;
         scene.add_mesh(mesh).map_err(|message| Error::file(path, message))?;

@@ -103,9 +103,9 @@ impl Library {
         Ok(library)
     }
 
-    /// One warning a kind for each library.
-    pub fn warn(&self) {
-        self.oddities.iter().for_each(Oddities::warn);
+    /// One warning a kind for each library of the OBJ file at `scene`.
+    pub fn warnings(&self, scene: &Path) -> impl Iterator<Item = String> {
+        self.oddities.iter().flat_map(|oddities| oddities.warnings(scene))
     }
 
     /// What the warnings say.

@@ -154,11 +154,13 @@ impl Oddities {
         Ok(())
     }
 
-    /// One warning a kind, by first line.
-    pub fn warn(&self) {
-        for message in self.messages() {
-            tracing::warn!("{}: {message}", self.file.display());
-        }
+    /// One warning a kind, by first line; of another file than `scene` with its path.
+    pub fn warnings(&self, scene: &Path) -> Vec<String> {
+        let named = |message| match self.file == scene {
+            true => message,
+            false => format!("{}: {message}", self.file.display()),
+        };
+        self.messages().into_iter().map(named).collect()
     }
 
     /// `line L: what: what becomes of it (N such lines)`.

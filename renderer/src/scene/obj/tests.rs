@@ -150,7 +150,8 @@ fn missing_texture_names_file_and_material() {
 #[test]
 fn nothing_to_draw_is_an_error() {
     for obj in [&b"v 0 0 0\n"[..], b"", b"some text\nf 1 2 3\n", b"v 0 0 0\nv 1 0 0\nf 1 2\n"] {
-        assert_eq!(error(&Files::new(&[("a.obj", obj)]), "a.obj"), "has no triangle to draw");
+        let text = error(&Files::new(&[("a.obj", obj)]), "a.obj");
+        assert!(text.starts_with("has no triangle to draw"), "{text}");
     }
     let binary = Files::new(&[("a.obj", b"v 0 0 0\n\0\x01\x02")]);
     assert!(error(&binary, "a.obj").starts_with("line 2: holds a NUL byte"));
@@ -159,17 +160,8 @@ fn nothing_to_draw_is_an_error() {
 /// What is told of `obj`, with the scene.
 fn told(obj: &str) -> (Vec<String>, Scene) {
     let files = Files::new(&[("a.obj", obj.as_bytes()), ("a.mtl", b"newmtl red\nKd 1 0 0\n")]);
-    let mut oddities = super::Oddities::new(&files.path("a.obj"), false);
-    let geometry = super::parse::parse(obj, &mut oddities).unwrap();
-    let library = super::Library::read(
-        &files.path("a.obj"),
-        &geometry.libraries,
-        &mut super::SourceFiles::default(),
-        &mut oddities,
-    );
-    let found = library.unwrap().find(&geometry.materials);
-    super::note_missing(&geometry, &found, &mut oddities).unwrap();
-    (oddities.messages(), files.load().unwrap())
+    let scene = files.load().unwrap();
+    (scene.warnings.clone(), scene)
 }
 
 #[test]
