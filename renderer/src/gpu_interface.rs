@@ -8,6 +8,7 @@ pub use structs::{
     LightData, LightNode, MaterialData, PixelData, ViewData,
 };
 
+use crate::gpu_types::StructInfo;
 use crate::lights::Attenuation;
 use crate::measure::DeviceCounts;
 use std::fmt::Write as _;
@@ -110,6 +111,23 @@ const CONSTANTS: [(&str, u32); 28] = [
     ("SORT_BLOCK", SORT_BLOCK),
 ];
 
+/// Every shared struct; one comes after those it contains.
+const STRUCTS: [StructInfo; 13] = [
+    ViewData::INFO,
+    GridData::INFO,
+    LightNode::INFO,
+    LightData::INFO,
+    MaterialData::INFO,
+    InstanceData::INFO,
+    DrawCommand::INFO,
+    DrawCounts::INFO,
+    ClusteringState::INFO,
+    DispatchSize::INFO,
+    PixelData::INFO,
+    ClusterGroup::INFO,
+    Candidate::INFO,
+];
+
 /// Names of what shader variants choose among; the value is the position.
 const VARIANT_NAMES: [&[&str]; 5] = [
     &["SPACE_PERSPECTIVE", "SPACE_ORTHOGRAPHIC"],
@@ -139,21 +157,7 @@ pub fn glsl() -> String {
         let name = attenuation.to_string().to_uppercase();
         let _ = writeln!(text, "const uint ATTENUATION_{name} = {};", attenuation as u32);
     }
-    for structure in [
-        ViewData::INFO,
-        GridData::INFO,
-        LightNode::INFO,
-        LightData::INFO,
-        MaterialData::INFO,
-        InstanceData::INFO,
-        DrawCommand::INFO,
-        DrawCounts::INFO,
-        ClusteringState::INFO,
-        DispatchSize::INFO,
-        PixelData::INFO,
-        ClusterGroup::INFO,
-        Candidate::INFO,
-    ] {
+    for structure in STRUCTS {
         text.push_str(&structure.glsl());
         text.push('\n');
     }
@@ -167,20 +171,6 @@ mod tests {
 
     #[test]
     fn structs_have_the_offsets_that_shaders_see() {
-        crate::gpu_types::tests::assert_layouts(&[
-            ViewData::INFO,
-            GridData::INFO,
-            LightNode::INFO,
-            LightData::INFO,
-            MaterialData::INFO,
-            InstanceData::INFO,
-            DrawCommand::INFO,
-            DrawCounts::INFO,
-            ClusteringState::INFO,
-            DispatchSize::INFO,
-            PixelData::INFO,
-            ClusterGroup::INFO,
-            Candidate::INFO,
-        ]);
+        crate::gpu_types::tests::assert_layouts(&STRUCTS);
     }
 }
