@@ -72,12 +72,10 @@ buffers! {
     /// A bit per cluster.
     ClusterBits = buffer("cluster_bits", Owner::Clustering)
         .storage("uint cluster_bits[]")
-        .texels("bits", Element::Word)
         .sized(|s| bytes::<u32>(s.words()));
     /// Visible clusters before each word of bits.
     WordRanks = buffer("word_ranks", Owner::Clustering)
         .storage("uint word_ranks[]")
-        .texels("rank", Element::Word)
         .sized(|s| bytes::<u32>(s.words()));
     /// Linear indices, ascending.
     VisibleClusters = buffer("visible_clusters", Owner::Clustering)
@@ -94,7 +92,6 @@ buffers! {
     /// Where each list begins, and the total.
     ListOffsets = buffer("list_offsets", Owner::Clustering)
         .storage("uint list_offsets[]")
-        .texels("offset", Element::Word)
         .sized(|s| bytes::<u32>(s.offsets()));
     /// The lights of the lists.
     LightIndices = buffer("light_indices", Owner::Clustering)

@@ -16,9 +16,9 @@ void mark_cluster(uint cluster)
 // Index of a cluster among the visible ones, or NO_CLUSTER where it is not marked or did not fit.
 uint visible_index(uint cluster)
 {
-    uint word = read_bits(cluster >> 5);
+    uint word = cluster_bits[cluster >> 5];
     uint bit = 1u << (cluster & 31u);
-    uint index = read_rank(cluster >> 5) + bitCount(word & (bit - 1u));
+    uint index = word_ranks[cluster >> 5] + bitCount(word & (bit - 1u));
     return (word & bit) != 0u && index < grid.visible_capacity ? index : NO_CLUSTER;
 }
 

@@ -10,8 +10,8 @@ struct LightCursor {
 
 LightCursor list_of_visible(uint visible)
 {
-    return LightCursor(min(read_offset(visible), grid.index_capacity),
-                       min(read_offset(visible + 1u), grid.index_capacity));
+    return LightCursor(min(list_offsets[visible], grid.index_capacity),
+                       min(list_offsets[visible + 1u], grid.index_capacity));
 }
 
 // The lights of a sample; false where the sample's cluster is missing.
