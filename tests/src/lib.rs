@@ -67,6 +67,27 @@ pub fn manylight() -> Command {
     Command::new(binary)
 }
 
+/// Copies the shader sources to a directory that a test may change.
+///
+/// # Panics
+/// Where they cannot be copied.
+pub fn copy_shaders(to: &Path) {
+    copy_tree(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders-glsl"), to);
+}
+
+fn copy_tree(from: &Path, to: &Path) {
+    std::fs::create_dir_all(to).expect("a directory can be made");
+    for entry in std::fs::read_dir(from).expect("a directory of sources") {
+        let entry = entry.expect("a file of sources");
+        let target = to.join(entry.file_name());
+        if entry.path().is_dir() {
+            copy_tree(&entry.path(), &target);
+        } else {
+            std::fs::copy(entry.path(), target).expect("a file can be copied");
+        }
+    }
+}
+
 /// One run with all it measured.
 pub struct Run {
     /// What was run.

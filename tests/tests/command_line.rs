@@ -1,6 +1,6 @@
 //! The program as its users meet it: files in, files out, exit codes, one clear line for what is wrong.
 
-use manylight_tests::manylight;
+use manylight_tests::{copy_shaders, manylight};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -264,26 +264,12 @@ fn an_output_that_cannot_be_written_is_refused_at_once() {
 fn broken_shaders_name_file_and_line() {
     let directory = tempfile::tempdir().unwrap();
     let shaders = directory.path().join("shaders-glsl");
-    let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders-glsl");
-    copy_tree(&sources, &shaders);
+    copy_shaders(&shaders);
     succeed(small(&directory.path().join("whole")).arg("--shaders").arg(&shaders).args(["--runs", "0"]));
     let broken = shaders.join("lib/brdf.glsl");
     fs::write(&broken, read(&broken).replace("const float PI", "const flaot PI")).unwrap();
     let message = refused(small(&directory.path().join("broken")).arg("--shaders").arg(&shaders));
     assert!(message.contains("lib/brdf.glsl:") && message.contains("shade/forward.frag"), "{message}");
-}
-
-fn copy_tree(from: &Path, to: &Path) {
-    fs::create_dir_all(to).unwrap();
-    for entry in fs::read_dir(from).unwrap() {
-        let entry = entry.unwrap();
-        let target = to.join(entry.file_name());
-        if entry.file_type().unwrap().is_dir() {
-            copy_tree(&entry.path(), &target);
-        } else {
-            fs::copy(entry.path(), target).unwrap();
-        }
-    }
 }
 
 #[test]

@@ -1,27 +1,13 @@
 //! What must never happen fails the run where it happens: here, shaders that mark too little.
 
-use manylight_tests::manylight;
+use manylight_tests::{copy_shaders, manylight};
 use std::fs;
-use std::path::Path;
-
-fn copy_tree(from: &Path, to: &Path) {
-    fs::create_dir_all(to).unwrap();
-    for entry in fs::read_dir(from).unwrap() {
-        let entry = entry.unwrap();
-        let target = to.join(entry.file_name());
-        if entry.file_type().unwrap().is_dir() {
-            copy_tree(&entry.path(), &target);
-        } else {
-            fs::copy(entry.path(), target).unwrap();
-        }
-    }
-}
 
 #[test]
 fn a_run_whose_fragments_lack_their_cluster_fails() {
     let directory = tempfile::tempdir().unwrap();
     let shaders = directory.path().join("shaders");
-    copy_tree(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders-glsl"), &shaders);
+    copy_shaders(&shaders);
     let marking = shaders.join("cluster/mark_depth.comp");
     let text = fs::read_to_string(&marking).unwrap();
     assert!(text.contains("if (depth > 0.0)"));

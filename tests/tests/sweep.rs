@@ -1,6 +1,6 @@
 //! Sweeps: the product of axes, skipping, failing, sharing, and going on after being killed.
 
-use manylight_tests::manylight;
+use manylight_tests::{copy_shaders, manylight};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -126,7 +126,7 @@ fn complete_runs_are_made_again_only_where_something_changed() {
 fn changed_shaders_are_noticed() {
     let directory = tempfile::tempdir().unwrap();
     let shaders = directory.path().join("shaders");
-    copy_tree(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders-glsl"), &shaders);
+    copy_shaders(&shaders);
     let out = directory.path().join("out");
     let replay = || succeed(small(&out).args(["--only", "indi-ortho-16_50", "--shaders"]).arg(&shaders));
     replay();
@@ -135,19 +135,6 @@ fn changed_shaders_are_noticed() {
     fs::write(&changed, read(&changed) + "\n// another line\n").unwrap();
     replay();
     assert_ne!(made(&out.join("indi-ortho-16_50")), first);
-}
-
-fn copy_tree(from: &Path, to: &Path) {
-    fs::create_dir_all(to).unwrap();
-    for entry in fs::read_dir(from).unwrap() {
-        let entry = entry.unwrap();
-        let target = to.join(entry.file_name());
-        if entry.file_type().unwrap().is_dir() {
-            copy_tree(&entry.path(), &target);
-        } else {
-            fs::copy(entry.path(), target).unwrap();
-        }
-    }
 }
 
 /// A glTF scene of one triangle in front of the first camera.
