@@ -11,6 +11,7 @@ pub use structs::{
 use crate::gpu_types::StructInfo;
 use crate::lights::Attenuation;
 use crate::measure::DeviceCounts;
+use crate::scene::TextureSlot;
 use std::fmt::Write as _;
 
 /// Descriptor set of the storage buffers, of what views some of them as texels, and of the uniform buffers.
@@ -111,6 +112,15 @@ const CONSTANTS: [(&str, u32); 28] = [
     ("SORT_BLOCK", SORT_BLOCK),
 ];
 
+/// Textures of a material, by the names that shaders call them.
+const TEXTURE_SLOTS: [(&str, TextureSlot); 5] = [
+    ("BASE_COLOR", TextureSlot::BaseColor),
+    ("METALLIC_ROUGHNESS", TextureSlot::MetallicRoughness),
+    ("NORMAL", TextureSlot::Normal),
+    ("OCCLUSION", TextureSlot::Occlusion),
+    ("EMISSIVE", TextureSlot::Emissive),
+];
+
 /// Every shared struct; one comes after those it contains.
 const STRUCTS: [StructInfo; 13] = [
     ViewData::INFO,
@@ -144,6 +154,9 @@ pub fn glsl() -> String {
     );
     for (name, value) in CONSTANTS {
         let _ = writeln!(text, "#define {name} {value}");
+    }
+    for (name, slot) in TEXTURE_SLOTS {
+        let _ = writeln!(text, "#define {name} {}", slot as u32);
     }
     for names in VARIANT_NAMES {
         for (value, name) in names.iter().enumerate() {

@@ -1,10 +1,6 @@
-// Textures of a material, as TextureSlot numbers them. TEXTURES has a bit for each that is sampled.
+// Which textures of its material a surface samples: TEXTURES has a bit for each slot.
 #pragma once
 
-#define BASE_COLOR 0
-#define METALLIC_ROUGHNESS 1
-#define NORMAL 2
-#define OCCLUSION 3
-#define EMISSIVE 4
+#include "generated/gpu_interface.glsl"
 
 #define HAS_TEXTURE(slot) ((TEXTURES >> slot & 1) != 0)
