@@ -1,11 +1,25 @@
-//! Ways of light assignment, and the sizes of what the accelerated ones work with: pure, for host and tests.
+//! Ways of marking clusters and of light assignment, and the sizes of what the accelerated ones work with: pure, for
+//! host and tests.
 //!
 //! All ways give the same lists. Brute force tests every visible cluster against every light. The others first drop the
 //! lights whose cells hold nothing visible; what is left, the candidates, the hierarchy puts into a tree, built anew each
 //! frame, down which each visible cluster goes, and scatter hands out to groups of visible clusters.
 
 use crate::gpu_interface::{ASSIGN_GROUP, BLOCK_COLUMNS, SORT_BITS, TREE_WIDTH};
+use clap::ValueEnum;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::fmt;
+
+/// Where the visible clusters of opaque and masked geometry are marked from (Gelderen section 5.2).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Marking {
+    /// From the depth buffer, per sample; with MSAA, shading runs per sample too.
+    Depth,
+    /// From a second geometry pass with early depth tests, per fragment.
+    Geometry,
+}
 
 /// How the light lists are built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,13 +5,15 @@ mod host_data;
 pub use host_data::{grid_data, gridless_data, view_data};
 
 use crate::buffers::{BUFFER_COUNT, BufferName, BufferSet, ClusteringSizes, Owner, View, set};
-use crate::frame::SLOTS;
 use crate::layouts::{BoundBuffers, DescriptorSets, Pipeline};
 use crate::vk::{Buffer, Context, Memory, TexelView};
 use crate::{Error, Result};
 use ash::vk;
 use std::ops::{Index, Range};
 use std::sync::Arc;
+
+/// Frames in flight.
+pub const SLOTS: usize = 2;
 
 /// Smallest buffer made, so that every binding has one.
 const MIN_BUFFER: u64 = 256;

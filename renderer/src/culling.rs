@@ -1,8 +1,21 @@
 //! What views may see: boxes around instances against the planes of frusta. Pure: no Vulkan.
 
+use crate::geometry::views::View;
 use crate::scene::{Bounds, Instance};
-use crate::views::View;
+use clap::ValueEnum;
 use glam::{DVec3, DVec4};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Where instances outside the views are left out; what is seen is the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Culling {
+    /// On the host, which records a draw for each run of instances seen.
+    Cpu,
+    /// On the device, which fills the draw commands that the host records.
+    Gpu,
+}
 
 /// World-space box around an instance, metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,7 +99,7 @@ impl ViewPlanes {
 mod tests {
     use super::*;
     use crate::geometry::Frustum;
-    use crate::views::{Mirror, Pose};
+    use crate::geometry::views::{Mirror, Pose};
     use glam::DQuat;
 
     fn view() -> View {

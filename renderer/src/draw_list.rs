@@ -2,8 +2,8 @@
 //! sorted from far to near. Pure: no Vulkan. [`crate::draw_slots`] leaves culling to the device.
 
 use crate::culling::{ViewPlanes, WorldBox};
+use crate::geometry::views::View;
 use crate::scene::{AlphaMode, Instance, Scene};
-use crate::views::View;
 
 /// How the surfaces of a draw are treated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -10,8 +10,8 @@
 //! a material and a facing; stage `cull` fills the commands in.
 
 use crate::draw_list::{Batch, Batches, SurfaceKind, sort_far_to_near};
+use crate::geometry::views::View;
 use crate::gpu_interface::{DrawCommand, DrawCounts};
-use crate::views::View;
 use glam::DVec3;
 
 /// Most instances of a slot: what one thread of stage `cull` tests.
@@ -142,8 +142,8 @@ mod tests {
     use super::*;
     use crate::draw_list::DrawList;
     use crate::geometry::Frustum;
+    use crate::geometry::views::Pose;
     use crate::scene::procedural::by_name;
-    use crate::views::Pose;
     use glam::DQuat;
 
     fn view() -> View {

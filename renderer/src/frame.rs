@@ -1,9 +1,8 @@
 //! The frame: which passes run, in which order, for every method. Nothing is reordered, so what is written
 //! here is what is measured.
 
-use crate::assign::Assigner;
+use crate::assign::{Assigner, Marking};
 use crate::clustering::Clustering;
-use crate::config::Marking;
 use crate::draw_list::DrawList;
 use crate::draw_slots::{DrawSlots, SlotOrder};
 use crate::gpu_scene::GpuScene;
@@ -16,9 +15,6 @@ use crate::pipelines::Pipelines;
 use crate::vk::{Buffer, Image};
 use ash::vk;
 use std::sync::Arc;
-
-/// Frames in flight.
-pub const SLOTS: usize = 2;
 
 /// One layer of an image. With multiview a view is a layer of an image that all views share; else it has its own image.
 pub struct Layer {

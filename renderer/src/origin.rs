@@ -4,7 +4,7 @@
 //! The host knows positions in f64 and takes the origin off before it rounds: lights each frame, instances when the origin
 //! moves. Everything the device calls world space has its origin here, whatever the method.
 
-use crate::views::{View, head_space};
+use crate::geometry::views::{View, head_space};
 use glam::DVec3;
 
 /// While the head stays within this part of the views' far distance from the world's origin, that is the frame's as well.
@@ -38,8 +38,8 @@ fn power_of_two_below(number: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::geometry::Frustum;
+    use crate::geometry::views::Pose;
     use crate::recording::{bundled_names, load};
-    use crate::views::Pose;
     use proptest::prelude::*;
 
     fn view(position: DVec3, far: f64) -> View {

@@ -3,24 +3,22 @@
 //! A variant is data: defines and specialization constants. Pipelines that several methods share are made once.
 
 mod debug;
-mod requirements;
 mod variant;
 
 pub use debug::DebugPipelines;
-pub use requirements::check_device;
 pub use variant::{Variant, lights_at_once};
 
 use variant::Defines;
 
 use crate::Result;
 use crate::assign::Assigner;
-use crate::config::Culling;
+use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
+use crate::geometry::views::ViewSet;
 use crate::layouts::{Layouts, Pipeline, PipelineLayout};
 use crate::methods::MethodSpec;
 use crate::scene::{TextureSlot, Vertex};
 use crate::texture_sets::TextureSet;
-use crate::views::ViewSet;
 use crate::vk::{self as gpu, Context, GraphicsDesc, ShaderLibrary};
 use ash::vk;
 use std::collections::{BTreeMap, BTreeSet};

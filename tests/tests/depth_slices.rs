@@ -2,9 +2,10 @@
 //! single precision; and that no light is lost there.
 
 use manylight::config::{Assign, Config, ExrFrames, FrameRange};
+use manylight::engine::{FramePlan, plan_frames};
 use manylight::geometry::{Frustum, half_space};
+use manylight::inputs::Inputs;
 use manylight::lights::Attenuation;
-use manylight::replay::{FramePlan, Inputs, plan_frames};
 use manylight_tests::scenes::{Quad, recording, write_quads};
 use manylight_tests::{Run, methods, run};
 use std::fmt::Write as _;

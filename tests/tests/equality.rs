@@ -1,7 +1,9 @@
 //! All methods shade every frame alike: as brute force over all lights does, mono and stereo, at one and at four
 //! samples a pixel, marked from depth and from geometry.
 
-use manylight::config::{Config, ExrFrames, FrameRange, Lighting, Marking};
+use manylight::assign::Marking;
+use manylight::config::{Config, ExrFrames, FrameRange};
+use manylight::lights::Lighting;
 use manylight_tests::{METHODS, Run, difference, methods, run};
 
 fn config(recording: &str, msaa: u32, marking: Marking) -> Config {

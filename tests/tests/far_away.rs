@@ -1,7 +1,7 @@
 //! Far from the world's origin everything is as at it: no method loses a light, and the picture is the same.
 
-use manylight::config::{Config, ExrFrames, FrameRange, Lighting};
-use manylight::lights::Attenuation;
+use manylight::config::{Config, ExrFrames, FrameRange};
+use manylight::lights::{Attenuation, Lighting};
 use manylight_tests::scenes::{Quad, recording, write_quads};
 use manylight_tests::{METHODS, Run, difference, methods, run};
 use std::fmt::Write as _;

@@ -1,12 +1,14 @@
 //! Views in mirrors: as brute force shades them, as the reflected scene looks, and with nothing from behind the mirror.
 
 use glam::{DVec2, DVec3, DVec4, Mat4};
-use manylight::config::{Config, Culling, ExrFrames, FrameRange, Marking};
+use manylight::assign::Marking;
+use manylight::config::{Config, ExrFrames, FrameRange};
+use manylight::culling::Culling;
+use manylight::geometry::views::Mirror;
+use manylight::inputs::Inputs;
 use manylight::measure::ViewPixels;
 use manylight::output::tone_map;
 use manylight::recording::{self, Recording};
-use manylight::replay::Inputs;
-use manylight::views::Mirror;
 use manylight_tests::{METHODS, Run, difference, methods, run, run_inputs};
 use serde_json::{Value, json};
 use std::fmt::Write;

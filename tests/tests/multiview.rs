@@ -1,6 +1,8 @@
 //! All views drawn at once: images, counters and lists are those of views drawn one after the other.
 
-use manylight::config::{Config, Culling, ExrFrames, FrameRange, Marking};
+use manylight::assign::Marking;
+use manylight::config::{Config, ExrFrames, FrameRange};
+use manylight::culling::Culling;
 use manylight_tests::{Run, methods, run};
 
 const METHODS: [&str; 4] = ["all-lights", "indi-persp-64", "encl-persp-64", "encl-ortho-4"];

@@ -24,7 +24,7 @@ fn write_run(out: &Path, scene: [&str; 2], views: u32, method: &str, lights: u32
         version: "0.1.0".into(),
         git_revision: "unknown".into(),
         method: method.into(),
-        lighting: Some(manylight::config::Lighting { count: lights, ..lighting }),
+        lighting: Some(manylight::lights::Lighting { count: lights, ..lighting }),
         config: Config { resolution: [32, 20], ..Config::default() },
         scene: Source { name: scene[0].into(), sha256: "0".into() },
         recording: Source { name: scene[1].into(), sha256: "1".into() },

@@ -1,7 +1,8 @@
 //! Whatever decides who is on a light list, and however the list is built: no light is lost that a fragment needs, and
 //! lists are the same by all ways.
 
-use manylight::config::{Assign, Config, FrameRange, Lighting};
+use manylight::config::{Assign, Config, FrameRange};
+use manylight::lights::Lighting;
 use manylight_tests::{METHODS, Run, methods, run};
 
 const TESTS: [&str; 4] = ["hs", "hs+sat-n", "sat-epv", "exact"];

@@ -1,9 +1,11 @@
 //! Stills: the onlooker changes nothing, sees the grid where it is, and draws what it is asked for.
 
 use glam::{DVec2, DVec3};
-use manylight::config::{Config, ExrFrames, FrameRange, Lighting};
+use manylight::config::{Config, ExrFrames, FrameRange};
+use manylight::engine::{FramePlan, plan_frames};
+use manylight::inputs::Inputs;
+use manylight::lights::Lighting;
 use manylight::output::planned_runs;
-use manylight::replay::{FramePlan, Inputs, plan_frames};
 use manylight::still::{Item, Placed, Show, Still, Viewpoint, render};
 use manylight_tests::run;
 

@@ -1,6 +1,7 @@
 //! Surfaces of files, drawn: alpha at the cut-off, flat nodes, unlit materials.
 
-use manylight::config::{Config, ExrFrames, FrameRange, Marking};
+use manylight::assign::Marking;
+use manylight::config::{Config, ExrFrames, FrameRange};
 use manylight_tests::{Run, methods, run};
 use serde_json::{Value, json};
 use std::path::Path;

@@ -1,13 +1,15 @@
 //! Whole frames of the device against the CPU twins of what its shaders do, and the far plane, where marking and
 //! shading might disagree.
 
-use manylight::config::{Config, ExrFrames, FrameRange, Marking};
+use manylight::assign::Marking;
+use manylight::config::{Config, ExrFrames, FrameRange};
 use manylight::cpu::{self, DepthImage, Marks};
+use manylight::engine::{FramePlan, plan_frames};
 use manylight::geometry::Frustum;
+use manylight::geometry::views::View;
+use manylight::inputs::Inputs;
 use manylight::lights::{Attenuation, PointLight};
 use manylight::measure::{ClusterRecord, ViewPixels};
-use manylight::replay::{FramePlan, Inputs, plan_frames};
-use manylight::views::View;
 use manylight_tests::{Run, run, unpacked};
 use std::path::Path;
 

@@ -1,7 +1,8 @@
 //! Every method under the validation layers, with synchronization validation, and no barrier but those that passes
 //! derive: timestamps of single stages, whose barriers would hide a missing one, are left out.
 
-use manylight::config::{Config, ExrFrames, FrameRange, Marking, Scopes};
+use manylight::assign::Marking;
+use manylight::config::{Config, ExrFrames, FrameRange, Scopes};
 use manylight_tests::{METHODS, methods, run};
 
 fn silent(recording: &str, msaa: u32, marking: Marking) {

@@ -4,10 +4,12 @@ mod scopes;
 
 use super::{Console, Interrupt};
 use crate::assign::Assigner;
-use crate::config::{Assign, Config, Layer, Lighting, Test};
+use crate::config::{Assign, Config, Layer, Test};
+use crate::inputs::Inputs;
+use crate::lights::Lighting;
 use crate::output::{prepare_file, write_whole};
+use crate::replay::Watch;
 use crate::replay::bench::{AssignBench, BenchRow, bench_assign};
-use crate::replay::{Inputs, Watch};
 use crate::report::assign_bench::{Sample, write_figures};
 use crate::{Error, Result};
 use clap::Subcommand;

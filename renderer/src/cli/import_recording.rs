@@ -1,7 +1,7 @@
 //! `manylight import-recording`.
 
 use super::Console;
-use crate::views::Mirror;
+use crate::geometry::views::Mirror;
 use crate::{Result, recording};
 use clap::ValueEnum;
 use glam::DVec3;

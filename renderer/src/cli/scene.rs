@@ -2,7 +2,7 @@
 
 use super::Console;
 use crate::Result;
-use crate::replay::inputs::load_scene;
+use crate::inputs::load_scene;
 
 /// Arguments of `scene`.
 #[derive(Debug, clap::Args)]

@@ -2,8 +2,9 @@
 
 use super::Console;
 use crate::config::{Config, ExrFrames, FrameRange, Layer};
+use crate::inputs::Inputs;
 use crate::output::{planned_runs, prepare_output, write_exr, write_png};
-use crate::replay::{Inputs, shape_note};
+use crate::replay::shape_note;
 use crate::still::camera::BIRDSEYE;
 use crate::still::{Item, Placed, Show, Still, Viewpoint, render};
 use crate::{Error, Result};

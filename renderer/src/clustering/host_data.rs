@@ -3,10 +3,10 @@
 use crate::assign;
 use crate::buffers::ClusteringSizes;
 use crate::culling::ViewPlanes;
+use crate::geometry::views::{Pose, View};
 use crate::geometry::{ClusterSpace, Grid};
 use crate::gpu_interface::{GridData, ViewData};
 use crate::origin::AT_HOME;
-use crate::views::{Pose, View};
 use glam::{DVec3, DVec4};
 
 /// Rounding of positions and planes in f32 stays below this fraction of the grid's reach (the far distance, or the

@@ -1,7 +1,8 @@
 //! Reading result sets: which runs there are, and the tables of one run.
 
 use crate::Result;
-use crate::config::{Axis, Config, Lighting, Role};
+use crate::config::{Axis, Config, Role};
+use crate::lights::Lighting;
 use crate::output::{self, Age, FrameRow, Manifest, Row, Source, each_row, saved_frames};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

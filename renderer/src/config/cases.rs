@@ -104,7 +104,7 @@ impl FromStr for Assign {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::Lighting;
+    use crate::lights::Lighting;
 
     fn config(methods: &[&str], tests: &[&str]) -> Config {
         Config {

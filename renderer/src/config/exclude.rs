@@ -222,7 +222,8 @@ impl FromStr for Exclude {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::{Assign, Lighting};
+    use crate::config::Assign;
+    use crate::lights::Lighting;
 
     #[test]
     fn stars_stand_for_any_text() {

@@ -23,58 +23,16 @@ pub use layer::Layer;
 pub use schema::json_schema;
 pub use values::resolution as parse_resolution;
 
-use crate::assign::Assigner;
-use crate::lights::Attenuation;
+use crate::assign::{Assigner, Marking};
+use crate::culling::Culling;
+use crate::geometry::DisplacedVolume;
+use crate::lights::{Attenuation, Lighting, LightsFrom};
 use crate::methods::{MethodSpec, Sharing, Space};
 use crate::{Error, Result};
 use clap::ValueEnum;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
-
-/// N lights of one intensity, cut-off and near radius.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(try_from = "values::RawLighting")]
-pub struct Lighting {
-    /// How many.
-    pub count: u32,
-    /// Intensity I.
-    pub intensity: f32,
-    /// Cut-off I0.
-    pub cutoff: f32,
-    /// Near radius R0, metres.
-    pub r0: f32,
-}
-
-/// Where the visible clusters of opaque and masked geometry are marked from (Gelderen section 5.2).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Marking {
-    /// From the depth buffer, per sample; with MSAA, shading runs per sample too.
-    Depth,
-    /// From a second geometry pass with early depth tests, per fragment.
-    Geometry,
-}
-
-/// Where instances outside the views are left out; what is seen is the same.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Culling {
-    /// On the host, which records a draw for each run of instances seen.
-    Cpu,
-    /// On the device, which fills the draw commands that the host records.
-    Gpu,
-}
-
-/// Which frustum sizes the clusters of Displ (Gelderen section 4.3).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum DisplacedVolume {
-    /// The average cluster volume of Persp on the undisplaced frustum.
-    View,
-    /// The displaced frustum's own volume over Persp's cluster count.
-    Own,
-}
 
 /// How the light lists are built; every way gives the same ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -130,17 +88,6 @@ pub enum Scopes {
     All,
     /// The frame alone: what measuring itself costs is the difference.
     Frame,
-}
-
-/// Where the lights of one run come from.
-#[derive(Debug, Clone, PartialEq)]
-pub enum LightsFrom {
-    /// Falling lights.
-    Rain(Lighting),
-    /// Static lights of a CSV file.
-    File(PathBuf),
-    /// The scene's own point lights.
-    Scene,
 }
 
 /// One scene of the scene axis.

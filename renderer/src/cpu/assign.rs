@@ -63,7 +63,7 @@ pub fn assign(
 mod tests {
     use super::*;
     use crate::geometry::ClusterSpace;
-    use crate::views::Pose;
+    use crate::geometry::views::Pose;
 
     fn light(x: f32, r1: f32) -> PointLight {
         PointLight { position: [x, 0.5, 10.5], tint: [1.0; 3], intensity: 1.0, cutoff: 1.0, r0: 0.1, r1 }

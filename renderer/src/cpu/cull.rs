@@ -1,7 +1,7 @@
 //! Which instances some views may see, from their boxes.
 
 use crate::culling::{ViewPlanes, WorldBox};
-use crate::views::View;
+use crate::geometry::views::View;
 
 /// What at least one of the views may see.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -27,7 +27,7 @@ pub fn cull(boxes: &[WorldBox], views: &[View], epsilon: f64) -> Seen {
 mod tests {
     use super::*;
     use crate::geometry::Frustum;
-    use crate::views::Pose;
+    use crate::geometry::views::Pose;
     use glam::DVec3;
 
     #[test]

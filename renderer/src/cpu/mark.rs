@@ -1,7 +1,7 @@
 //! Which clusters hold fragments, from a depth image.
 
 use crate::geometry::Grid;
-use crate::views::View;
+use crate::geometry::views::View;
 use glam::{DVec2, DVec3};
 
 /// A depth buffer read back: reversed depth, 0 where nothing was drawn.
@@ -82,10 +82,10 @@ fn possible_cells(grid: &Grid, at: DVec3, epsilon: f64) -> Vec<[u32; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::DisplacedVolume;
-    use crate::geometry::{Frustum, plan};
+    use crate::geometry::views::Pose;
+    use crate::geometry::{DisplacedVolume, Frustum};
+    use crate::methods::grid::plan;
     use crate::methods::{Sharing, Space};
-    use crate::views::Pose;
 
     const CENTRE: &[[f32; 2]] = &[[0.5, 0.5]];
 

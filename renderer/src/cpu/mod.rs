@@ -55,8 +55,8 @@ pub struct Visible<'a> {
 
 #[cfg(test)]
 mod tests {
+    use crate::geometry::views::Pose;
     use crate::geometry::{ClusterSpace, Frustum, Grid};
-    use crate::views::Pose;
     use glam::DVec3;
 
     /// Unit cells along the x axis.

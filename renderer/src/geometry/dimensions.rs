@@ -15,7 +15,9 @@ const MAX_STEPS: u32 = 100;
 /// Dimensions of a perspective grid and its ratio d: slice k spans depths z1*(1+d)^k..z1*(1+d)^(k+1).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PerspectiveDimensions {
+    /// Clusters along x, y and depth; whole numbers.
     pub dimensions: DVec3,
+    /// Thickness of a slice over the depth at which it begins.
     pub ratio: f64,
 }
 

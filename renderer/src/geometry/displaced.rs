@@ -1,7 +1,20 @@
 //! The displaced frustum: the apex moved back so that clusters near the eye grow (Gelderen section 4.3).
 
 use super::Frustum;
+use clap::ValueEnum;
 use glam::DVec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Which frustum sizes the clusters of Displ (Gelderen section 4.3).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum DisplacedVolume {
+    /// The average cluster volume of Persp on the undisplaced frustum.
+    View,
+    /// The displaced frustum's own volume over Persp's cluster count.
+    Own,
+}
 
 /// Moves the apex of `frustum` back by `displacement` metres along its central axis; the far plane's
 /// rectangle stays, so that the displaced frustum contains the original.

@@ -1,7 +1,7 @@
 //! One frustum around the frusta of any number of views (Gelderen section 4.1, for canted eyes as well).
 
 use super::Frustum;
-use crate::views::{Pose, View};
+use crate::geometry::views::{Pose, View};
 use crate::{Error, Result};
 use glam::{DVec2, DVec3};
 
@@ -146,7 +146,7 @@ fn is_narrow_enough(enclosing: &Enclosing) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::views::head_space;
+    use crate::geometry::views::head_space;
     use glam::DQuat;
     use std::f64::consts::PI;
 

@@ -1,7 +1,7 @@
 //! A grid of clusters: from points to clusters and from clusters to their shapes.
 
 use super::Frustum;
-use crate::views::Pose;
+use crate::geometry::views::Pose;
 use glam::DVec3;
 
 /// How far outside the grid, relative to its dimensions, a point still counts as on its rim.

@@ -13,18 +13,16 @@ mod enclosing;
 mod frustum;
 mod grid;
 mod piece;
-mod plan;
 mod sphere;
 mod sphere_test;
+pub mod views;
 
-#[cfg(test)]
-mod properties;
-#[cfg(test)]
-mod worked_values;
-
+pub use dimensions::{
+    PerspectiveDimensions, average_volume, from_metres, from_pixels, from_volume, side_in_tangents,
+};
+pub use displaced::{DisplacedVolume, displaced};
 pub use enclosing::{Enclosing, enclosing};
 pub use frustum::Frustum;
 pub use grid::{ClusterSpace, Grid, cell_at};
-pub use plan::plan;
 pub use sphere::{CellTest, Plane, axis_box, half_space};
 pub use sphere_test::{Candidates, SphereTest};

@@ -160,7 +160,7 @@ pub fn axis_box(grid: &Grid, cell: [u32; 3], center: DVec3, radius: f64) -> f64 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::views::Pose;
+    use crate::geometry::views::Pose;
 
     fn orthographic() -> Grid {
         let space = ClusterSpace::Orthographic { min: DVec3::ZERO, max: DVec3::splat(4.0) };

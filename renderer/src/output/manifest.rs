@@ -1,7 +1,8 @@
 //! `run.json`: how a run came to be.
 
 use super::strict::{refuse, shown};
-use crate::config::{Config, Lighting};
+use crate::config::Config;
+use crate::lights::Lighting;
 use crate::measure::{Capacities, GrowthEvent};
 use crate::{Error, Result};
 use serde::{Deserialize, Serialize};

@@ -1,7 +1,8 @@
 //! Records with recognisable values, for the tests of this module.
 
 use super::{DeviceInfo, Manifest, RUN_FORMAT, Source, git_revision};
-use crate::config::{Config, Lighting};
+use crate::config::Config;
+use crate::lights::Lighting;
 use crate::measure::{
     Capacities, ClusterRecord, ClusteringCounts, DeviceCounts, FrameCounts, FrameTimes, GrowthEvent,
     StageTime, ViewPixels,

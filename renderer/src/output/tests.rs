@@ -1,6 +1,7 @@
 use super::testing::{counts, manifest, times, view};
 use super::*;
-use crate::config::{Assign, Axis, Config, Labels, Lighting};
+use crate::config::{Assign, Axis, Config, Labels};
+use crate::lights::Lighting;
 use crate::measure::{FrameCounts, FrameTimes};
 use std::collections::BTreeMap;
 use std::fs;

@@ -2,8 +2,8 @@
 //! fragments are visited once more, when clusters are ranked, to count those of each visible cluster.
 
 use super::draws::{self, DepthUse, SurfacePass, SurfacePipelines};
+use crate::assign::Marking;
 use crate::buffers::{BufferName as B, BufferSet, set};
-use crate::config::Marking;
 use crate::draw_list::SurfaceKind;
 use crate::frame::{Eyes, Frame};
 use crate::pass::{Dispatch, Push, Recorder, Size};

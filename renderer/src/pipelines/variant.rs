@@ -1,8 +1,8 @@
 //! A variant as data: what shaders are specialised for, and the defines that follow.
 
 use super::Output;
-use crate::assign::Assigner;
-use crate::config::{Culling, Marking};
+use crate::assign::{Assigner, Marking};
+use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
 use crate::geometry::{Candidates, SphereTest};
 use crate::lights::Attenuation;

@@ -22,9 +22,9 @@
 mod spline;
 
 use super::format::{MAX_COORDINATE, check_clock_and_depths, check_fov, check_position};
-use super::json::{self, Check, Problem};
 use super::{Format, Frame, Hmd, Recording, RecordingFile, Source, file_name, read, sha256, stem};
-use crate::rain::RainParameters;
+use crate::json::{self, Check, Problem};
+use crate::lights::rain::RainParameters;
 use crate::{Error, Result};
 use glam::DVec3;
 use serde::Deserialize;

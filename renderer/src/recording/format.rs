@@ -1,8 +1,8 @@
 //! The recording file, `manylight.recording/1`, as data.
 
-use super::json::{Check, Problem};
-use crate::rain::RainParameters;
-use crate::views::{Mirror, Pose};
+use crate::geometry::views::{Mirror, Pose};
+use crate::json::{Check, Problem};
+use crate::lights::rain::RainParameters;
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 

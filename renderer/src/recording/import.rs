@@ -3,9 +3,10 @@
 mod camera;
 mod decode;
 
-use super::{Format, Frame, Hmd, Recording, RecordingFile, Source};
-use super::{file_name, format::round_to, read, sha256, stem};
-use crate::rain::RainParameters;
+use super::{
+    Format, Frame, Hmd, Recording, RecordingFile, Source, file_name, format::round_to, read, sha256, stem,
+};
+use crate::lights::rain::RainParameters;
 use crate::{Error, Result};
 use camera::Simulation;
 use std::path::Path;

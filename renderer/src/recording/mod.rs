@@ -49,18 +49,17 @@
 pub mod bake;
 mod format;
 mod import;
-mod json;
 mod write;
 
 pub use bake::bake;
 pub(crate) use format::MAX_COORDINATE;
 pub use format::{Eye, EyeRow, Format, Frame, Hmd, MirrorRow, RecordingFile, Source};
 pub use import::{ImportOptions, import_bin};
-pub(crate) use json::{Check, Problem};
 
 use crate::geometry::Frustum;
-use crate::rain::RainParameters;
-use crate::views::{Mirror, Pose, View, ViewSet};
+use crate::geometry::views::{Mirror, Pose, View, ViewSet};
+use crate::json::{self, Check};
+use crate::lights::rain::RainParameters;
 use crate::{Error, Result};
 use sha2::{Digest, Sha256};
 use std::path::Path;

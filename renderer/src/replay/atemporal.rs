@@ -1,19 +1,16 @@
 //! The atemporal run: every frame once, with everything counted and read back; nothing is timed.
 
 use super::RunSink;
-use super::counted::Counted;
-use super::engine::Engine;
-use super::plan::FramePlan;
-use super::session::Session;
 use crate::Result;
+use crate::engine::{Counted, Engine, FramePlan, Session};
 use crate::frame::Frame;
+use crate::geometry::views::View;
 use crate::gpu_interface::{ClusteringState, PixelData};
 use crate::lights::LightSource;
 use crate::measure::{FrameCounts, ViewPixels};
 use crate::methods::MethodSpec;
 use crate::pass::Recorder;
 use crate::passes::{mark, pixel_maps, readback};
-use crate::views::View;
 use crate::vk::{Buffer, Memory};
 use ash::vk;
 use half::f16;

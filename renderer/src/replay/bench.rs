@@ -5,21 +5,19 @@ mod scopes;
 
 pub use scopes::{ScopesRow, bench_scopes};
 
-use super::engine::{Engine, Mode};
-use super::plan::{FramePlan, plan_frames};
-use super::session::Session;
-use super::{Inputs, Watch, temporal};
+use super::{Watch, temporal};
 use crate::Result;
 use crate::assign::Assigner;
-use crate::config::{Config, FrameRange, Lighting, LightsFrom, Test};
+use crate::config::{Config, FrameRange, Test};
+use crate::engine::{Counted, Engine, FramePlan, Mode, Session, plan_frames};
 use crate::geometry::SphereTest;
 use crate::gpu_interface::ClusteringState;
-use crate::lights::PointLight;
+use crate::inputs::Inputs;
+use crate::lights::{Lighting, LightsFrom, PointLight};
 use crate::measure::Capacities;
 use crate::methods::MethodSpec;
 use crate::output::makes_lists;
 use crate::passes::readback;
-use crate::replay::counted::Counted;
 use serde::Serialize;
 
 /// What is timed.

@@ -1,13 +1,12 @@
 //! Which way of assignment a run takes where that is left to counts.
 
-use super::engine::{Engine, Mode};
-use super::plan::FramePlan;
-use super::session::Session;
-use super::{Inputs, temporal};
+use super::temporal;
 use crate::Result;
 use crate::assign::{AssignCounts, Assigner, cheapest};
 use crate::config::Config;
+use crate::engine::{Engine, FramePlan, Mode, Session};
 use crate::gpu_interface::ClusteringState;
+use crate::inputs::Inputs;
 use crate::measure::Capacities;
 use crate::methods::MethodSpec;
 use crate::output::PlannedRun;

@@ -8,36 +8,27 @@
 pub(crate) mod atemporal;
 pub mod bench;
 mod choose;
-mod counted;
-pub(crate) mod engine;
-pub mod inputs;
-mod plan;
 mod player;
-pub(crate) mod session;
 mod shape;
 mod temporal;
 mod tracer;
 
-pub use inputs::Inputs;
-pub use plan::{FramePlan, plan_frames};
 pub use player::{Player, device_info};
-pub use session::shader_library;
 pub use shape::shape_note;
 
 use crate::assign::Assigner;
 use crate::config::Config;
+use crate::engine::{Engine, FramePlan, Mode, Session, plan_frames};
+use crate::inputs::Inputs;
 use crate::measure::{
     Capacities, ClusterLists, FrameCounts, FrameTimes, FrameTrace, GrowthEvent, ViewPixels,
 };
 use crate::methods::MethodSpec;
 use crate::output::PlannedRun;
 use crate::recording::Recording;
-use crate::still;
 use crate::vk::DeviceInfo;
-use crate::{Error, Result};
-use engine::{Engine, Mode};
+use crate::{Error, Result, still};
 use image::RgbImage;
-use session::Session;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, SystemTime};
 use tracer::Tracer;

@@ -1,11 +1,11 @@
 //! A device with one scene on it, on which runs are played one after the other.
 
-use super::engine::{Engine, Mode};
-use super::session::Session;
-use super::{Inputs, RunSink, Watch, plan_frames, replay_run};
+use super::{RunSink, Watch, replay_run};
 use crate::Result;
 use crate::assign::Assigner;
 use crate::config::Config;
+use crate::engine::{Engine, Mode, Session, plan_frames};
+use crate::inputs::Inputs;
 use crate::measure::Capacities;
 use crate::output::PlannedRun;
 use crate::vk::{Context, DeviceInfo, DeviceOptions};

@@ -1,8 +1,8 @@
 //! Whether pictures have the shape of what the views see.
 
 use crate::Result;
+use crate::geometry::views::View;
 use crate::recording::Recording;
-use crate::views::View;
 
 /// Pixels count as square up to this deviation.
 const TOLERANCE: f64 = 0.05;

@@ -2,13 +2,11 @@
 //! while the next one runs.
 
 use super::Watch;
-use super::engine::Engine;
-use super::plan::FramePlan;
-use super::session::Session;
 use super::tracer::Tracer;
 use crate::Result;
+use crate::clustering::SLOTS;
+use crate::engine::{Engine, FramePlan, Session};
 use crate::frame::Frame;
-use crate::frame::SLOTS;
 use crate::lights::LightSource;
 use crate::measure::{FrameTimes, StageTime};
 use crate::pass::Recorder;

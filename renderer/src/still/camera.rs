@@ -1,8 +1,8 @@
 //! Where a still is seen from.
 
 use crate::geometry::Frustum;
+use crate::geometry::views::{Pose, View, head_space};
 use crate::recording::MAX_COORDINATE;
-use crate::views::{Pose, View, head_space};
 use crate::{Error, Result};
 use glam::{DMat3, DQuat, DVec3};
 

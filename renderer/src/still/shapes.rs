@@ -1,8 +1,8 @@
 //! The lines of a still: what the cameras see and what the clusterings hold.
 
+use crate::geometry::views::{Pose, View};
 use crate::geometry::{ClusterSpace, Grid};
 use crate::passes::lines::Line;
-use crate::views::{Pose, View};
 use glam::DVec3;
 
 /// Frusta of rendering cameras: green (Gelderen figure 4.8).

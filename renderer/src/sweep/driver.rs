@@ -3,13 +3,13 @@
 use super::writer::{Files, device};
 use super::{Failure, Fingerprint, Part, failure};
 use crate::config::Config;
+use crate::engine::{plan_frames, shader_library};
+use crate::inputs::Inputs;
 use crate::output::{
     DeviceInfo, PlannedRun, check_run, is_complete, prepare_output, remove_abandoned, saved_fingerprint,
 };
 use crate::recording::{self, Recording};
-use crate::replay::{
-    Inputs, Player, Watch, device_info, frame_total, plan_frames, shader_library, shape_note,
-};
+use crate::replay::{Player, Watch, device_info, frame_total, shape_note};
 use crate::scene::{Scene, procedural};
 use crate::{Error, Result};
 use std::cell::Cell;

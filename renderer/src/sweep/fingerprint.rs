@@ -1,8 +1,8 @@
 //! What a run's results depend on, in one hash.
 
 use crate::config::Config;
+use crate::inputs::Inputs;
 use crate::output::{DeviceInfo, RUN_FORMAT, git_revision};
-use crate::replay::Inputs;
 use crate::{Error, Result};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
@@ -54,7 +54,8 @@ fn sha256(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::{Assign, ExrFrames, Lighting};
+    use crate::config::{Assign, ExrFrames};
+    use crate::lights::Lighting;
 
     #[test]
     fn it_changes_with_what_matters_alone() {

@@ -95,7 +95,7 @@ fn check_images(config: &Config, entries: &[SceneEntry]) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::Lighting;
+    use crate::lights::Lighting;
 
     fn config(scenes: &[&str], exclude: &[&str]) -> Config {
         Config {

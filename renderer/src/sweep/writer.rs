@@ -1,12 +1,14 @@
 //! Writes the runs of one part as they come.
 
 use super::{Part, Reporter};
-use crate::config::{Assign, LightsFrom};
+use crate::config::Assign;
+use crate::inputs::Inputs;
+use crate::lights::LightsFrom;
 use crate::measure::ViewPixels;
 use crate::output::{
     DeviceInfo, Manifest, PlannedRun, RUN_FORMAT, RunWriter, Source, git_revision, rfc3339_utc,
 };
-use crate::replay::{Inputs, RunResult, RunSink};
+use crate::replay::{RunResult, RunSink};
 use crate::{Error, Result};
 use image::RgbImage;
 

@@ -2,8 +2,9 @@
 
 use crate::cli::{Console, Interrupt};
 use crate::config::{Config, Layer};
+use crate::inputs::Inputs;
 use crate::replay::bench::{ScopesRow, bench_scopes};
-use crate::replay::{Inputs, Watch, frame_total};
+use crate::replay::{Watch, frame_total};
 use crate::{Error, Result};
 use serde::Serialize;
 use std::fmt;

@@ -4,12 +4,11 @@ use super::{Case, SLOT};
 use crate::Result;
 use crate::assign::Assigner;
 use crate::config::{Config, Scopes};
+use crate::engine::{Engine, Session, plan_frames};
 use crate::geometry::SphereTest;
+use crate::inputs::Inputs;
 use crate::output::{PlannedRun, planned_runs};
-use crate::replay::choose;
-use crate::replay::engine::Engine;
-use crate::replay::session::Session;
-use crate::replay::{Inputs, Watch, plan_frames};
+use crate::replay::{Watch, choose};
 use serde::Serialize;
 use std::fmt;
 

@@ -1,7 +1,9 @@
 //! What a report asks of `run.json`.
 
-use crate::config::{Config, DisplacedVolume, Lighting, Marking};
-use crate::lights::Attenuation;
+use crate::assign::Marking;
+use crate::config::Config;
+use crate::geometry::DisplacedVolume;
+use crate::lights::{Attenuation, Lighting};
 use crate::methods::MethodSpec;
 use crate::output::{MANIFEST, Manifest, Source};
 use crate::report::format::grouped;

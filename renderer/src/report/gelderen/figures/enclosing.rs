@@ -1,13 +1,13 @@
 //! Enclosing clustering of views that look apart (4.7).
 
 use super::computed::picture;
-use crate::config::DisplacedVolume;
-use crate::geometry::{ClusterSpace, Frustum, Grid, plan};
+use crate::geometry::views::{Mirror, Pose, View};
+use crate::geometry::{ClusterSpace, DisplacedVolume, Frustum, Grid};
+use crate::methods::grid::plan;
 use crate::methods::{Sharing, Space};
 use crate::recording::{EyeRow, Hmd};
 use crate::report::chart::{Chart, Key, Look};
 use crate::report::figure::Figure;
-use crate::views::{Mirror, Pose, View};
 use crate::{Error, Result};
 use glam::{DVec2, DVec3};
 

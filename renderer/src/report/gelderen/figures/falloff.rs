@@ -2,15 +2,15 @@
 
 use super::computed::picture;
 use crate::Result;
-use crate::config::DisplacedVolume;
 use crate::cpu::{LightLists, Surface, assign, attenuation, reflected};
-use crate::geometry::{Frustum, Grid, SphereTest, plan};
+use crate::geometry::views::{Pose, View};
+use crate::geometry::{DisplacedVolume, Frustum, Grid, SphereTest};
 use crate::lights::{Attenuation, PointLight};
+use crate::methods::grid::plan;
 use crate::methods::{Sharing, Space};
 use crate::output::{cubehelix, tone_map};
 use crate::report::chart::{Chart, Plot};
 use crate::report::figure::Figure;
-use crate::views::{Pose, View};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 
 /// Pixels.

@@ -1,6 +1,6 @@
 //! What an atemporal frame counted on the device, read back and put into records.
 
-use super::engine::Engine;
+use super::Engine;
 use super::session::Session;
 use crate::gpu_interface::ClusteringState;
 use crate::measure::{ClusterLists, ClusterRecord, ClusteringCounts, DeviceCounts};

@@ -1,11 +1,13 @@
 //! Grids and frusta whose numbers are known: near 0.4, far 100, 1280x720 unless told otherwise.
 
-use super::dimensions::{average_volume, from_pixels, side_in_tangents};
-use super::{ClusterSpace, Frustum, Grid, enclosing, plan};
-use crate::config::DisplacedVolume::{Own, View as OfView};
+use super::plan;
+use crate::geometry::DisplacedVolume::{Own, View as OfView};
+use crate::geometry::views::{Pose, View, head_space};
+use crate::geometry::{
+    ClusterSpace, Frustum, Grid, average_volume, enclosing, from_pixels, side_in_tangents,
+};
 use crate::methods::Sharing::{Encl, Indi};
 use crate::methods::{Sharing, Space};
-use crate::views::{Pose, View, head_space};
 use glam::{DQuat, DVec3};
 use std::f64::consts::FRAC_PI_2;
 

@@ -1,11 +1,11 @@
 //! From a method and the views of a frame to its clustering grids.
 
-use super::dimensions::{PerspectiveDimensions, average_volume, from_metres, from_pixels, from_volume};
-use super::displaced::displaced;
-use super::{ClusterSpace, Frustum, Grid, enclosing};
-use crate::config::DisplacedVolume;
+use crate::geometry::views::{Pose, View, common_mirror, head_space};
+use crate::geometry::{
+    ClusterSpace, DisplacedVolume, Frustum, Grid, PerspectiveDimensions, average_volume, displaced,
+    enclosing, from_metres, from_pixels, from_volume,
+};
 use crate::methods::{MethodSpec, Sharing, Space};
-use crate::views::{Pose, View, common_mirror, head_space};
 use crate::{Error, Result};
 use glam::DVec3;
 

@@ -1,9 +1,11 @@
 //! What must hold for any views: asymmetric, canted, one to four of them.
 
-use super::{CellTest, ClusterSpace, Frustum, Grid, SphereTest, axis_box, half_space, plan};
-use crate::config::DisplacedVolume;
+use super::plan;
+use crate::geometry::views::{Mirror, Pose, View};
+use crate::geometry::{
+    CellTest, ClusterSpace, DisplacedVolume, Frustum, Grid, SphereTest, axis_box, half_space,
+};
 use crate::methods::{Sharing, Space};
-use crate::views::{Mirror, Pose, View};
 use glam::{DQuat, DVec3, EulerRot};
 use proptest::prelude::*;
 

@@ -86,7 +86,7 @@ pub(crate) trait Check {
 /// # Errors
 /// [`Error::File`] with line, column and field where the bytes are no text, the text is no JSON, does not have the
 /// fields of `T`, or fails its [`Check`].
-pub(super) fn parse<T: DeserializeOwned + Check>(path: &Path, bytes: &[u8]) -> Result<T> {
+pub(crate) fn parse<T: DeserializeOwned + Check>(path: &Path, bytes: &[u8]) -> Result<T> {
     let text = text::decode(bytes).map_err(|message| Error::file(path, message))?;
     let mut deserializer = serde_json::Deserializer::from_str(&text);
     let value: T = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {

@@ -1,17 +1,17 @@
 //! The list-building passes on the device against their CPU twins, and the stage times against known work.
 
 use super::*;
-use crate::config::Lighting;
 use crate::cpu;
 use crate::frame::{Eyes, light_lists};
+use crate::geometry::views::{Pose, View, ViewSet};
 use crate::geometry::{ClusterSpace, Frustum, Grid};
+use crate::lights::Lighting;
+use crate::lights::rain::{Rain, RainParameters};
 use crate::methods::{Sharing, Space};
 use crate::pass::BufferCopy;
 use crate::passes::{assign, depth, readback, scan};
-use crate::rain::{Rain, RainParameters};
 use crate::scene::Scene;
 use crate::scene::procedural::by_name;
-use crate::views::{Pose, View, ViewSet};
 use glam::{DQuat, DVec3};
 
 const PERSP: MethodSpec =

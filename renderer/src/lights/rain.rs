@@ -6,9 +6,8 @@
 //! (seed, light, life), and the step uses single-precision `+`, `-` and `*` alone: light k of frame f has the
 //! same bits on every machine, however frames are skipped, batched or threaded, and however many lights there are.
 
-use crate::config::Lighting;
-use crate::lights::PointLight;
-use crate::recording::{Check, Problem};
+use crate::json::{Check, Problem};
+use crate::lights::{Lighting, PointLight};
 use crate::{Error, Result};
 use rand_core::Rng;
 use rand_pcg::Pcg32;

@@ -3,9 +3,9 @@
 use super::*;
 use crate::culling::WorldBox;
 use crate::draw_slots::SlotOrder;
+use crate::geometry::views::Mirror;
 use crate::gpu_interface::DrawCommand;
 use crate::passes::cull;
-use crate::views::Mirror;
 
 /// How close to a plane f32 may decide otherwise, metres: the planes' slack is below it.
 const EPSILON: f64 = 1e-3;

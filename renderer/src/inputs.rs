@@ -1,8 +1,9 @@
 //! What a replay reads: scene, recording, lights.
 
-use crate::config::{self, Config, Lighting};
-use crate::lights::{self, LightSource, LightsFile, PointLight};
-use crate::rain::{Rain, RainParameters};
+use crate::config::Config;
+
+use crate::lights::rain::{Rain, RainParameters};
+use crate::lights::{self, LightSource, Lighting, LightsFile, LightsFrom, PointLight};
 use crate::recording::{self, Recording};
 use crate::scene::{self, Scene, procedural};
 use crate::{Error, Result};
@@ -48,9 +49,9 @@ impl Inputs {
     ///
     /// # Errors
     /// Rain that does not fit into memory or whose parameters are out of range.
-    pub fn light_source(&self, lights: &config::LightsFrom) -> Result<LightSource> {
+    pub fn light_source(&self, lights: &LightsFrom) -> Result<LightSource> {
         match (lights, &self.static_lights) {
-            (config::LightsFrom::Rain(lighting), _) => {
+            (LightsFrom::Rain(lighting), _) => {
                 let dt_s = self.recording.file().dt_s;
                 Ok(LightSource::Rain(Rain::new(&self.rain(), lighting, dt_s, 0)?))
             }
@@ -83,9 +84,9 @@ impl Inputs {
     ///
     /// # Errors
     /// They were not loaded.
-    pub fn light_count(&self, lights: &config::LightsFrom) -> Result<u32> {
+    pub fn light_count(&self, lights: &LightsFrom) -> Result<u32> {
         match (lights, &self.static_lights) {
-            (config::LightsFrom::Rain(lighting), _) => Ok(lighting.count),
+            (LightsFrom::Rain(lighting), _) => Ok(lighting.count),
             (_, Some(lights)) => Ok(lights.len() as u32),
             (_, None) => Err(Error::Internal("static lights were not loaded".into())),
         }

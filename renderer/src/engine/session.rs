@@ -1,20 +1,21 @@
 //! What all runs of a replay share: device, scene, render targets, frames in flight.
 
+use super::requirements::check_device;
 use crate::buffers::BufferName;
-use crate::clustering::make_buffer;
+use crate::clustering::{SLOTS, make_buffer};
 use crate::config::Config;
 use crate::draw_list::{Batches, DrawList};
 use crate::draw_slots::{DrawSlots, SlotOrder};
-use crate::frame::{DrawBuffers, Layer, SLOTS, ViewTargets};
+use crate::frame::{DrawBuffers, Layer, ViewTargets};
+use crate::geometry::views::ViewSet;
 use crate::gpu_interface::{DrawCommand, DrawCounts, MAX_VIEWS, ViewData};
 use crate::gpu_scene::GpuScene;
 use crate::layouts::{DEPTH_SET, DescriptorSets, Layouts};
 use crate::pass::{FrameTracker, Timestamps};
 use crate::passes::readback::STATE_BYTES;
-use crate::pipelines::{self, COLOR_FORMAT, DEPTH_FORMAT, PipelineStore};
+use crate::pipelines::{COLOR_FORMAT, DEPTH_FORMAT, PipelineStore};
 use crate::scene::Scene;
 use crate::texture_sets::drawn_sets;
-use crate::views::ViewSet;
 use crate::vk::{Buffer, Context, DeviceOptions, Image, ImageDesc, Memory, ShaderLibrary};
 use crate::{Error, Result, buffers, gpu_interface};
 use ash::vk;
@@ -156,7 +157,7 @@ impl Session {
         let views = view_set.count;
         let options = DeviceOptions { device: config.device.clone(), validate: config.validate };
         let context = Context::new(&options)?;
-        pipelines::check_device(&context, config, view_set)?;
+        check_device(&context, config, view_set)?;
         check_resolution(&context, config.resolution)?;
         check_views(views)?;
         let layouts = Arc::new(Layouts::new(&context)?);

@@ -1,14 +1,22 @@
 //! One method under one lighting on the device: renders planned frames, and grows its buffers when one of them
 //! turns out to need more.
 
-use super::plan::{FramePlan, views_of_clusterings};
-use super::session::Session;
+mod counted;
+mod plan;
+mod requirements;
+mod session;
+
+pub use counted::Counted;
+pub use plan::{FramePlan, plan_frames};
+pub use session::{Session, shader_library};
+
 use crate::Result;
-use crate::assign::Assigner;
+use crate::assign::{Assigner, Marking};
 use crate::buffers::{BufferName, ClusteringSizes};
-use crate::clustering::{Clustering, SharedBuffer, grid_data, gridless_data, make_buffer, view_data};
-use crate::config::{Config, Culling, Marking, Scopes};
-use crate::frame::{self, Draws, Frame, SLOTS};
+use crate::clustering::{Clustering, SLOTS, SharedBuffer, grid_data, gridless_data, make_buffer, view_data};
+use crate::config::{Config, Scopes};
+use crate::culling::Culling;
+use crate::frame::{self, Draws, Frame};
 use crate::geometry::SphereTest;
 use crate::gpu_interface::{ClusteringState, DrawCounts, LightData};
 use crate::layouts::Pipeline;
@@ -21,6 +29,7 @@ use crate::pipelines::{Pipelines, Variant, lights_at_once};
 use crate::vk::{Buffer, Context, Memory};
 use ash::vk;
 use glam::{DVec3, Vec3};
+use plan::views_of_clusterings;
 use std::sync::Arc;
 
 /// The device's part of a run in one mode: temporal (nothing counted) or atemporal (all counted).

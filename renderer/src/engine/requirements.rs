@@ -1,7 +1,9 @@
 //! What a configuration asks of the device.
 
-use crate::config::{Config, Culling, Marking};
-use crate::views::ViewSet;
+use crate::assign::Marking;
+use crate::config::Config;
+use crate::culling::Culling;
+use crate::geometry::views::ViewSet;
 use crate::vk::Context;
 use crate::{Error, Result};
 

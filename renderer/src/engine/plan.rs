@@ -1,12 +1,11 @@
 //! What is known of a run's frames before the device is asked: views and grids of each.
 
 use crate::config::Config;
-use crate::geometry::{self, Grid};
-use crate::methods::{MethodSpec, Sharing};
-use crate::origin;
+use crate::geometry::Grid;
+use crate::geometry::views::View;
+use crate::methods::{MethodSpec, Sharing, grid};
 use crate::recording::Recording;
-use crate::views::View;
-use crate::{Error, Result};
+use crate::{Error, Result, origin};
 use glam::DVec3;
 use std::ops::Range;
 
@@ -45,7 +44,7 @@ fn plan_frame(config: &Config, recording: &Recording, method: &MethodSpec, frame
     let grids = match *method {
         MethodSpec::AllLights => vec![],
         MethodSpec::Clustered { sharing, space } => {
-            geometry::plan(space, sharing, &views, config.resolution, config.displaced_volume)?
+            grid::plan(space, sharing, &views, config.resolution, config.displaced_volume)?
         }
     };
     for grid in &grids {

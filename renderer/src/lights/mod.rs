@@ -2,11 +2,14 @@
 
 mod attenuation;
 mod csv_file;
+mod lighting;
+pub mod rain;
 
 pub use attenuation::Attenuation;
 pub use csv_file::{LightsFile, load_csv};
+pub use lighting::{Lighting, LightsFrom};
 
-use crate::rain::Rain;
+use crate::lights::rain::Rain;
 use crate::scene::SceneLight;
 use crate::{Error, Result};
 use serde::Serialize;
@@ -144,8 +147,8 @@ fn from_scene_light(light: &SceneLight, cutoff: f32, r0: f32) -> PointLight {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::Lighting;
-    use crate::rain::RainParameters;
+    use crate::lights::Lighting;
+    use crate::lights::rain::RainParameters;
     use glam::Vec3;
 
     fn scene_light(intensity: f32, range: Option<f32>) -> SceneLight {
