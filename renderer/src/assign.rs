@@ -6,10 +6,12 @@
 //! frame, down which each visible cluster goes, and scatter hands out to groups of visible clusters.
 
 use crate::gpu_interface::{ASSIGN_GROUP, BLOCK_COLUMNS, SORT_BITS, TREE_WIDTH};
+use crate::nearest;
 use clap::ValueEnum;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::str::FromStr;
 
 /// Where the visible clusters of opaque and masked geometry are marked from (Gelderen section 5.2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
@@ -19,6 +21,33 @@ pub enum Marking {
     Depth,
     /// From a second geometry pass with early depth tests, per fragment.
     Geometry,
+}
+
+/// Which clusters get light lists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Clusters {
+    /// Those that hold a fragment, which marking finds: sparse.
+    Visible,
+    /// Every cluster of the grid: dense. Nothing is marked.
+    All,
+}
+
+impl fmt::Display for Clusters {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Visible => "visible",
+            Self::All => "all",
+        })
+    }
+}
+
+impl FromStr for Clusters {
+    type Err = String;
+
+    /// Reads what [`fmt::Display`] writes.
+    fn from_str(text: &str) -> Result<Self, String> {
+        nearest::named(text, Self::value_variants(), "choice of clusters")
+    }
 }
 
 /// How the light lists are built.

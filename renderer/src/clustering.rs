@@ -58,6 +58,8 @@ pub struct Clustering {
     pub host: [ClusteringBuffers; SLOTS],
     /// The views that look lights up here.
     pub views: Range<usize>,
+    /// Clusters of this frame's grid.
+    pub cluster_count: u32,
     /// Words of visibility bits of this frame's grid.
     pub word_count: u32,
     /// Most visible clusters that fit.
@@ -96,6 +98,7 @@ impl Clustering {
             buffers,
             host,
             views,
+            cluster_count: 0,
             word_count: 0,
             visible_capacity: sizes.capacities.visible_clusters,
             sets: [const { vec![] }; SLOTS],

@@ -1,252 +1,27 @@
-//! The frame: which passes run, in which order, for every method. Nothing is reordered, so what is written
-//! here is what is measured.
+//! The frame: which passes run, in which order, for every method. Nothing is reordered, so what is written here is what is
+//! measured.
+//!
+//! ```text
+//! host lights ──lights──> Lights ─┐
+//! scene ──(cull)──> draws         ├─ the method's groups ─> LightLists ─┐
+//!            └──────────depth──> Depth ─┘ (where it marks) ─────────────┴─shade──> Color ──resolve
+//! ```
 
-use crate::assign::{Assigner, Marking};
-use crate::clustering::Clustering;
-use crate::draw_list::DrawList;
-use crate::draw_slots::{DrawSlots, SlotOrder};
-use crate::gpu_scene::GpuScene;
-use crate::layouts::BoundBuffers;
-use crate::pass::{DepthImage, Recorder, ScopeName};
-use crate::passes::{
-    assign, cull, cull_lights, depth, hierarchy, lights, mark, readback, resolve, scan, shade,
-};
-use crate::pipelines::Pipelines;
-use crate::vk::{Buffer, Image};
-use ash::vk;
-use std::sync::Arc;
+use crate::methods::Method;
+use crate::pass::Recorder;
+use crate::passes::{Frame, cull, depth, lights, readback, resolve, shade};
 
-/// One layer of an image. With multiview a view is a layer of an image that all views share; else it has its own image.
-pub struct Layer {
-    /// All layers.
-    pub image: Arc<Image>,
-    /// Which of them.
-    pub index: u32,
-    /// It alone.
-    pub view: vk::ImageView,
-}
-
-impl Layer {
-    /// Its colour, for copies.
-    pub fn color(&self) -> (vk::Image, vk::ImageSubresourceLayers) {
-        let layers = vk::ImageSubresourceLayers::default().aspect_mask(vk::ImageAspectFlags::COLOR);
-        (self.image.handle, layers.base_array_layer(self.index).layer_count(1))
-    }
-}
-
-/// The views that a geometry pass draws at once.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Eyes {
-    /// One view.
-    One(usize),
-    /// All, each into its layer.
-    All,
-}
-
-impl Eyes {
-    /// The name of their stage: `depth[0]`, or `depth` for all.
-    pub fn stage(self, stem: &'static str) -> ScopeName {
-        match self {
-            Self::One(view) => (stem, view).into(),
-            Self::All => stem.into(),
-        }
-    }
-
-    /// The view by which shared data is found.
-    pub fn first(self) -> usize {
-        match self {
-            Self::One(view) => view,
-            Self::All => 0,
-        }
-    }
-}
-
-/// What a view is rendered into.
-pub struct ViewTargets {
-    /// Reversed depth.
-    pub depth: Layer,
-    /// Linear HDR colour, with all its samples.
-    pub color: Layer,
-    /// Colour with one sample; `None` where `color` has no more.
-    pub resolved: Option<Layer>,
-    /// `depth`, for compute shaders.
-    pub depth_set: vk::DescriptorSet,
-}
-
-impl ViewTargets {
-    /// Its depth, as compute shaders sample it.
-    pub fn depth_image(&self) -> DepthImage {
-        DepthImage { image: self.depth.image.handle, set: self.depth_set }
-    }
-}
-
-/// What stage `cull` fills, a part for each view and one for all at once; shared by the frames in flight.
-pub struct DrawBuffers {
-    /// [`crate::gpu_interface::DrawCommand`], as many in each part as there are slots.
-    pub commands: Buffer,
-    /// Instances that the commands draw.
-    pub drawn_instances: Buffer,
-}
-
-/// What the views draw of the scene.
-pub enum Draws<'a> {
-    /// What the host let through, a list for each view and one for all at once.
-    Listed(&'a [DrawList]),
-    /// Everything, by commands that stage `cull` fills, as many lists.
-    Indirect {
-        /// The scene's.
-        slots: &'a DrawSlots,
-        /// An order for each view.
-        orders: &'a [SlotOrder],
-        /// The commands.
-        buffers: &'a DrawBuffers,
-    },
-}
-
-/// Everything one frame is recorded from. All of it stays as it is until the frame has ended.
-pub struct Frame<'a> {
-    /// Pipelines of the method.
-    pub pipelines: &'a Pipelines,
-    /// What is drawn.
-    pub scene: &'a GpuScene,
-    /// What each view draws of it.
-    pub draws: Draws<'a>,
-    /// What each view is rendered into.
-    pub targets: &'a [ViewTargets],
-    /// Of each view, whether it sees the world in a mirror.
-    pub mirrored: &'a [bool],
-    /// The clusterings; for a method without, one that holds every view and no grid.
-    pub clusterings: &'a [Clustering],
-    /// Whether the clusterings have grids.
-    pub clustered: bool,
-    /// Whether geometry passes draw all views at once.
-    pub multiview: bool,
-    /// Marking strategy.
-    pub marking: Marking,
-    /// How the light lists are built.
-    pub assigner: Assigner,
-    /// Whether views are shaded; else the frame ends with the light lists.
-    pub shaded: bool,
-    /// The lights on the device.
-    pub lights: &'a Buffer,
-    /// The lights as the host wrote them.
-    pub light_staging: &'a Buffer,
-    /// How many.
-    pub light_count: u32,
-    /// Where the host finds each clustering's state.
-    pub states: &'a Buffer,
-    /// Width and height of each view, pixels.
-    pub resolution: [u32; 2],
-    /// Which of the frames in flight this is.
-    pub slot: usize,
-}
-
-impl Frame<'_> {
-    /// The buffers of a clustering.
-    pub fn buffers(&self, clustering: usize) -> BoundBuffers<'_> {
-        self.clusterings[clustering].bound(self.slot)
-    }
-
-    /// The clustering in which a view looks its lights up.
-    pub fn clustering_of_view(&self, view: usize) -> usize {
-        self.clusterings
-            .iter()
-            .position(|clustering| clustering.views.contains(&view))
-            .expect("every view belongs to a clustering")
-    }
-
-    /// The views of a frame, as geometry passes draw them.
-    pub fn eyes(&self) -> impl Iterator<Item = Eyes> + use<> {
-        let passes = if self.multiview { 1 } else { self.targets.len() };
-        let multiview = self.multiview;
-        (0..passes).map(move |view| if multiview { Eyes::All } else { Eyes::One(view) })
-    }
-
-    /// The views of a frame, as shading draws them: at once only where all look lights up in one clustering, for a pass
-    /// binds the buffers of one.
-    pub fn shaded_eyes(&self) -> impl Iterator<Item = Eyes> + use<> {
-        let at_once = self.multiview && self.clusterings.len() == 1;
-        let passes = if at_once { 1 } else { self.targets.len() };
-        (0..passes).map(move |view| if at_once { Eyes::All } else { Eyes::One(view) })
-    }
-
-    /// Whether a pass draws a view in a mirror, or, with `mirrored` false, one that is not.
-    pub fn any_mirrored(&self, eyes: Eyes, mirrored: bool) -> bool {
-        match eyes {
-            Eyes::One(view) => self.mirrored[view] == mirrored,
-            Eyes::All => self.mirrored.contains(&mirrored),
-        }
-    }
-
-    /// How many views a pass draws.
-    pub fn view_count(&self, eyes: Eyes) -> u32 {
-        match eyes {
-            Eyes::One(_) => 1,
-            Eyes::All => self.targets.len() as u32,
-        }
-    }
-
-    /// Which of the draw lists is for `eyes`: those of single views, then that of all at once.
-    pub fn list_of(&self, eyes: Eyes) -> usize {
-        match eyes {
-            Eyes::One(view) => view,
-            Eyes::All => self.targets.len(),
-        }
-    }
-}
-
-/// Records the whole frame.
-pub fn record(r: &mut Recorder, frame: &Frame) {
+/// Records the whole frame of a method.
+pub fn record(r: &mut Recorder, frame: &Frame, method: &Method) {
     r.scope("frame", |r| {
-        lights::record(r, frame);
-        for eyes in frame.eyes() {
-            cull::record(r, frame, eyes);
-        }
-        if frame.clustered {
-            for clustering in 0..frame.clusterings.len() {
-                r.scope(("cluster", clustering), |r| cluster(r, frame, clustering));
-            }
-        } else {
-            for eyes in frame.eyes() {
-                depth::record(r, frame, eyes);
-            }
-        }
+        let lights = lights::record(r, frame);
+        cull::record(r, frame);
+        let (depth, lists) = method.record(r, frame, lights);
         if frame.shaded {
-            for eyes in frame.shaded_eyes() {
-                shade::record(r, frame, eyes);
-            }
-            resolve::record(r, frame);
+            let depth = depth::complete(r, frame, depth);
+            let color = shade::record(r, frame, depth, lists);
+            resolve::record(r, frame, color);
         }
         readback::states(r, frame);
     });
-}
-
-fn cluster(r: &mut Recorder, frame: &Frame, clustering: usize) {
-    let views = frame.clusterings[clustering].views.clone();
-    // The prepass of all views at once belongs to the first clustering.
-    if !frame.multiview {
-        views.clone().for_each(|view| depth::record(r, frame, Eyes::One(view)));
-    } else if clustering == 0 {
-        depth::record(r, frame, Eyes::All);
-    }
-    for view in views {
-        mark::record(r, frame, clustering, view);
-    }
-    scan::compact(r, frame, clustering);
-    light_lists(r, frame, clustering);
-}
-
-/// The light lists of the visible clusters.
-pub fn light_lists(r: &mut Recorder, frame: &Frame, clustering: usize) {
-    match frame.assigner {
-        Assigner::Brute => assign::transform_lights(r, frame, clustering),
-        Assigner::Hierarchy => {
-            cull_lights::cull_lights(r, frame, clustering);
-            hierarchy::build_hierarchy(r, frame, clustering);
-        }
-        Assigner::Scatter => cull_lights::cull_lights(r, frame, clustering),
-    }
-    assign::count_lights(r, frame, clustering);
-    scan::light_offsets(r, frame, clustering);
-    assign::assign_lights(r, frame, clustering);
 }

@@ -3,7 +3,7 @@
 use crate::config::Config;
 
 use crate::lights::rain::{Rain, RainParameters};
-use crate::lights::{self, LightSource, Lighting, LightsFile, LightsFrom, PointLight};
+use crate::lights::{self, LightSource, Lighting, LightsFile, LightsFrom, PointLight, StaticLights};
 use crate::recording::{self, Recording};
 use crate::scene::{self, Scene, procedural};
 use crate::{Error, Result};
@@ -49,13 +49,13 @@ impl Inputs {
     ///
     /// # Errors
     /// Rain that does not fit into memory or whose parameters are out of range.
-    pub fn light_source(&self, lights: &LightsFrom) -> Result<LightSource> {
+    pub fn light_source(&self, lights: &LightsFrom) -> Result<Box<dyn LightSource>> {
         match (lights, &self.static_lights) {
             (LightsFrom::Rain(lighting), _) => {
                 let dt_s = self.recording.file().dt_s;
-                Ok(LightSource::Rain(Rain::new(&self.rain(), lighting, dt_s, 0)?))
+                Ok(Box::new(Rain::new(&self.rain(), lighting, dt_s, 0)?))
             }
-            (_, Some(lights)) => Ok(LightSource::Static(lights.clone())),
+            (_, Some(lights)) => Ok(Box::new(StaticLights(lights.clone()))),
             (_, None) => Err(Error::Internal("static lights were not loaded".into())),
         }
     }

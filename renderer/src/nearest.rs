@@ -22,6 +22,18 @@ pub(crate) fn hint(name: &str, candidates: &[&str]) -> String {
     }
 }
 
+/// That of `all` which is called `text`; `what` says what it should be.
+///
+/// # Errors
+/// There is none: names the nearest.
+pub(crate) fn named<T: Copy + ToString>(text: &str, all: &[T], what: &str) -> Result<T, String> {
+    all.iter().find(|item| item.to_string() == text).copied().ok_or_else(|| {
+        let names: Vec<String> = all.iter().map(ToString::to_string).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        format!("`{text}` is no {what}{}", hint(text, &names))
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -5,7 +5,7 @@
 mod debug;
 mod variant;
 
-pub use debug::DebugPipelines;
+pub use debug::{DebugPipelines, Line, SPHERE_VERTICES};
 pub use variant::{Variant, lights_at_once};
 
 use variant::Defines;
@@ -16,7 +16,6 @@ use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
 use crate::geometry::views::ViewSet;
 use crate::layouts::{Layouts, Pipeline, PipelineLayout};
-use crate::methods::MethodSpec;
 use crate::scene::{TextureSlot, Vertex};
 use crate::texture_sets::TextureSet;
 use crate::vk::{self as gpu, Context, GraphicsDesc, ShaderLibrary};
@@ -58,6 +57,8 @@ pub struct ClusteredPipelines {
     pub count_fragments: MarkPipelines,
     /// Prefix sum of the visibility words.
     pub compact: ScanPipelines,
+    /// Every cluster as a visible one.
+    pub list_clusters: Arc<Pipeline>,
     /// Lights into clustering space.
     pub transform_lights: Arc<Pipeline>,
     /// Empties what counting fills in any order.
@@ -203,10 +204,7 @@ impl PipelineStore {
     /// All pipelines of a variant.
     pub fn pipelines(&mut self, variant: &Variant) -> Result<Pipelines> {
         self.asked.clear();
-        let clustered = match variant.method {
-            MethodSpec::AllLights => None,
-            MethodSpec::Clustered { .. } => Some(self.clustered(variant)?),
-        };
+        let clustered = variant.cells.map(|_| self.clustered(variant)).transpose()?;
         let accelerated = match variant.assigner {
             Assigner::Brute => None,
             Assigner::Hierarchy | Assigner::Scatter => Some(self.accelerated(variant)?),
@@ -269,6 +267,7 @@ impl PipelineStore {
             mark: self.mark(variant, false)?,
             count_fragments: self.mark(variant, true)?,
             compact: self.scan(&defines, "SCAN_VISIBILITY")?,
+            list_clusters: self.compute("cluster/list_clusters.comp", &defines)?,
             transform_lights: self.compute("assign/transform_lights.comp", &defines)?,
             clear_lists: self.compute("assign/clear_lists.comp", &defines)?,
             count_lights,

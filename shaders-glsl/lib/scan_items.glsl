@@ -2,51 +2,7 @@
 // (publish), by SCAN_ITEMS.
 #pragma once
 
-#include "generated/gpu_interface.glsl"
-
-DispatchSize groups_for(uint items, uint group_size)
-{
-    return DispatchSize((items + group_size - 1u) / group_size, 1u, 1u);
-}
-
-const DispatchSize NO_DISPATCH = DispatchSize(0u, 1u, 1u);
-
-// What finds the pairs of light and cluster runs once where they are kept as bits, else twice.
-void publish_meeting(DispatchSize size, bool masked)
-{
-    dispatches[DISPATCH_MEET] = size;
-    if (masked)
-        size = NO_DISPATCH;
-    dispatches[DISPATCH_MEET_AGAIN] = size;
-}
-
-// Lists of up to `lights` lights each, for so many visible clusters.
-void publish_lists(uint lights, uint visible)
-{
-    uint words = (lights + 31u) / 32u;
-#if ASSIGN == ASSIGN_BRUTE
-    words += words & 1u; // whole tiles
-#endif
-    bool masked = words == 0u || visible <= grid.mask_capacity / words;
-    new_state.candidates = lights;
-    new_state.mask_words = words;
-    new_state.masked = uint(masked);
-    DispatchSize lists = groups_for(visible, ASSIGN_GROUP);
-    dispatches[DISPATCH_LISTS] = lists;
-    DispatchSize masked_lists = lists;
-    DispatchSize unmasked_lists = DispatchSize(min(visible, LIST_ROW), (visible + LIST_ROW - 1u) / LIST_ROW, 1u);
-    if (masked)
-        unmasked_lists = NO_DISPATCH;
-    else
-        masked_lists = NO_DISPATCH;
-    dispatches[DISPATCH_MASKED] = masked_lists;
-    dispatches[DISPATCH_UNMASKED] = unmasked_lists;
-#if ASSIGN == ASSIGN_BRUTE
-    publish_meeting(DispatchSize(lists.x, (lights + ASSIGN_GROUP - 1u) / ASSIGN_GROUP, 1u), masked);
-#elif ASSIGN == ASSIGN_HIERARCHY
-    publish_meeting(DispatchSize(lists.x, TREE_SPLIT, 1u), masked);
-#endif
-}
+#include "lib/publish_visible.glsl"
 
 #if SCAN_ITEMS == SCAN_VISIBILITY
 
@@ -61,17 +17,7 @@ void emit(uint word, uint rank)
         visible_clusters[rank++] = word * 32u + uint(findLSB(bits));
 }
 
-void publish(uint total)
-{
-    new_state.visible_total = total;
-    uint visible = min(total, grid.visible_capacity);
-    new_state.visible = visible;
-    dispatches[DISPATCH_LISTS] = groups_for(visible, ASSIGN_GROUP);
-    dispatches[DISPATCH_SCAN] = groups_for(visible, SCAN_BLOCK);
-#if ASSIGN == ASSIGN_BRUTE
-    publish_lists(grid.light_count, visible);
-#endif
-}
+void publish(uint total) { publish_visible(total); }
 
 #elif SCAN_ITEMS == SCAN_LIGHTS
 

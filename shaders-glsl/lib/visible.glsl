@@ -1,4 +1,5 @@
-// The visible clusters: one bit a cluster while marking, a rank query after compaction.
+// The visible clusters: one bit a cluster while marking, a rank query after compaction. Where all clusters get lists, each
+// is visible, and its rank is its index.
 #pragma once
 
 #include "generated/gpu_interface.glsl"
@@ -16,10 +17,14 @@ void mark_cluster(uint cluster)
 // Index of a cluster among the visible ones, or NO_CLUSTER where it is not marked or did not fit.
 uint visible_index(uint cluster)
 {
+#if CLUSTERS == CLUSTERS_ALL
+    return cluster < grid.visible_capacity ? cluster : NO_CLUSTER;
+#else
     uint word = cluster_bits[cluster >> 5];
     uint bit = 1u << (cluster & 31u);
     uint index = word_ranks[cluster >> 5] + bitCount(word & (bit - 1u));
     return (word & bit) != 0u && index < grid.visible_capacity ? index : NO_CLUSTER;
+#endif
 }
 
 // What the marking shaders do with the cluster of each fragment: mark it, or, once all are ranked, count the fragment.

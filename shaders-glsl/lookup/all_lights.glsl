@@ -18,3 +18,16 @@ uint light_at(uint position)
 {
     return position;
 }
+
+const uint NO_GROUP = 0xFFFFFFFFu;
+
+// Nothing is grouped.
+uint group_of_sample(ViewData view, vec2 pixel, float depth)
+{
+    return NO_GROUP;
+}
+
+uint fragments_of_group(uint group)
+{
+    return 0u;
+}

@@ -29,3 +29,18 @@ uint light_at(uint position)
 {
     return read_index(position);
 }
+
+const uint NO_GROUP = NO_CLUSTER;
+
+// The cluster of a sample, by its index in the grid.
+uint group_of_sample(ViewData view, vec2 pixel, float depth)
+{
+    return cluster_of_sample(view, pixel, depth);
+}
+
+// Fragments that were counted in a cluster.
+uint fragments_of_group(uint cluster)
+{
+    uint visible = visible_index(cluster);
+    return visible == NO_CLUSTER ? 0u : visible_fragments[visible];
+}

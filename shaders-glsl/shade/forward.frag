@@ -2,11 +2,7 @@
 #version 460
 #include "lib/fragment_position.glsl"
 #include "lib/material.glsl"
-#if LOOKUP == LOOKUP_ALL_LIGHTS
-#include "lookup/all_lights.glsl"
-#else
-#include "lookup/clustered.glsl"
-#endif
+#include "lookup/$LOOKUP.glsl"
 #include "lib/cluster_space.glsl"
 #include "lib/shade_point.glsl"
 

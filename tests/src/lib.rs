@@ -7,7 +7,7 @@ use image::RgbImage;
 use manylight::config::Config;
 use manylight::inputs::Inputs;
 use manylight::measure::{ClusterLists, FrameCounts, FrameTimes, ViewPixels};
-use manylight::methods::MethodSpec;
+use manylight::methods::Method;
 use manylight::output::{PlannedRun, planned_runs, tone_map};
 use manylight::replay::{RunResult, RunSink, Watch, replay};
 use std::fs::File;
@@ -34,7 +34,7 @@ pub const METHODS: [&str; 7] = [
 ///
 /// # Panics
 /// Where a name is none.
-pub fn methods(names: &[&str]) -> Vec<MethodSpec> {
+pub fn methods(names: &[&str]) -> Vec<Method> {
     names.iter().map(|name| name.parse().expect("a method's name")).collect()
 }
 

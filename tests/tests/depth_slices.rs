@@ -110,7 +110,7 @@ fn hits(run: &Run) -> impl Iterator<Item = (usize, f32, u32)> {
 
 fn plan(config: &Config) -> FramePlan {
     let inputs = Inputs::load(config).unwrap();
-    plan_frames(config, &inputs.recording, &config.methods[0]).unwrap().remove(0)
+    plan_frames(config, &inputs.recording).unwrap().remove(0)
 }
 
 #[test]

@@ -30,12 +30,11 @@ fn still(config: &Config, inputs: &Inputs, view: Option<&str>, items: &[Item]) -
 
 fn seen_from(config: &Config, inputs: &Inputs, viewpoint: Viewpoint, items: &[Item]) -> Still {
     let show = Show::from_items(items).unwrap();
-    render(config, inputs, &planned_runs(config)[0], viewpoint, &show)
-        .unwrap_or_else(|error| panic!("{error}"))
+    render(inputs, &planned_runs(config)[0], viewpoint, &show).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn plan(config: &Config, inputs: &Inputs) -> FramePlan {
-    plan_frames(config, &inputs.recording, &config.methods[0]).unwrap().remove(0)
+    plan_frames(config, &inputs.recording).unwrap().remove(0)
 }
 
 /// The world position of a pixel's centre.
@@ -139,10 +138,7 @@ fn what_cannot_be_shown_is_refused_before_the_device_is_asked() {
     let runs = planned_runs(&config);
     let refused = |view, items: &[Item]| {
         let show = Show::from_items(items).unwrap();
-        render(&config, &inputs, &runs[0], Viewpoint::Named(view), &show)
-            .err()
-            .map(|error| error.to_string())
-            .unwrap()
+        render(&inputs, &runs[0], Viewpoint::Named(view), &show).err().map(|error| error.to_string()).unwrap()
     };
     assert!(refused(None, &[Item::Clusters]).contains("all-lights has no clusters"));
     assert!(refused(Some("left"), &[Item::Frusta]).contains("birdseye"));

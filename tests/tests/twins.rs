@@ -73,7 +73,7 @@ fn square(directory: &Path, distance: f32, [near, far]: [f64; 2], light: &PointL
 
 fn plan(config: &Config) -> FramePlan {
     let inputs = Inputs::load(config).unwrap();
-    plan_frames(config, &inputs.recording, &config.methods[0]).unwrap().remove(0)
+    plan_frames(config, &inputs.recording).unwrap().remove(0)
 }
 
 /// Reversed depth as the device stored it, but for the last bits.

@@ -1,7 +1,7 @@
 //! Sizes of a clustering's buffers, and what a device must hold and dispatch for them: pure.
 
 use super::BufferName;
-use crate::assign::{self, Assigner};
+use crate::assign::{self, Assigner, Clusters};
 use crate::gpu_interface::{ASSIGN_GROUP, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS};
 use crate::measure::Capacities;
 use crate::vk::{Limits, texel_bytes};
@@ -12,6 +12,8 @@ use crate::{Error, Result};
 pub struct ClusteringSizes {
     /// Clusters of the grid (largest of all frames); 0 for a method without clusters.
     pub clusters: u64,
+    /// Which of them get lists.
+    pub listed: Clusters,
     /// Depths between slices of a perspective grid (most of all frames).
     pub slice_planes: u32,
     /// Lights (most of all frames).
@@ -27,9 +29,12 @@ pub struct ClusteringSizes {
 }
 
 impl ClusteringSizes {
-    /// Words of the visibility bits.
+    /// Words of the visibility bits; none where all clusters get lists.
     pub fn words(&self) -> u64 {
-        self.clusters.div_ceil(32)
+        match self.listed {
+            Clusters::Visible => self.clusters.div_ceil(32),
+            Clusters::All => 0,
+        }
     }
 
     /// Visible clusters that fit.
@@ -175,6 +180,7 @@ mod tests {
         let assigner = Assigner::Scatter;
         ClusteringSizes {
             clusters: 1 << 20,
+            listed: Clusters::Visible,
             slice_planes: 65,
             lights: 10_000,
             capacities,

@@ -60,7 +60,7 @@ pub fn run(args: Args, console: &Console) -> Result<()> {
     let inputs = Inputs::load(&config)?;
     inputs.rain_note().into_iter().for_each(|note| console.note(&note));
     prepare_output(&config.out)?;
-    let still = render(&config, &inputs, &run, viewpoint, &show)?;
+    let still = render(&inputs, &run, viewpoint, &show)?;
     if still.view != BIRDSEYE {
         let shape = shape_note(&inputs.recording, args.frame, config.resolution)?;
         shape.into_iter().for_each(|note| console.note(&note));

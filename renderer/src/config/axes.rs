@@ -2,7 +2,7 @@
 //! with their schema, names of run directories, the closing table's columns and what reports tell runs apart by follow.
 
 use super::{Config, Lighting, LightsFrom, SceneEntry};
-use crate::methods::MethodSpec;
+use crate::methods::Method;
 use std::fmt;
 use std::path::Path;
 
@@ -43,7 +43,7 @@ pub struct Axis {
     /// What rules call its values by.
     pub values: Values,
     /// Whether the runs of a method differ along it.
-    pub applies: fn(&MethodSpec) -> bool,
+    pub applies: fn(&Method) -> bool,
     /// How many values a configuration gives.
     count: fn(&Config) -> usize,
     /// A configuration for each value. The method is one already, but for the axes before it.
@@ -55,7 +55,7 @@ pub struct Axis {
 }
 
 /// Every axis: of the product the first varies slowest.
-pub static AXES: [Axis; 6] = [
+pub static AXES: [Axis; 7] = [
     Axis {
         name: "scene",
         description: "The scene as the configuration has it, or its file's name without extension; `*` stands for any \
@@ -114,12 +114,26 @@ pub static AXES: [Axis; 6] = [
         label: |run, _| names(&run.methods),
     },
     Axis {
+        name: "clusters",
+        description: "Which clusters get lists; `*` stands for any text.",
+        column: "clusters",
+        role: Role::Way,
+        values: Values::Names,
+        applies: Method::has_lists,
+        count: |config| config.clusters.len(),
+        split: |config| {
+            each(&config.clusters, |clusters| Config { clusters: vec![clusters], ..config.clone() })
+        },
+        called: |run| vec![names(&run.clusters)],
+        label: |run, _| names(&run.clusters),
+    },
+    Axis {
         name: "assign",
         description: "The way of assignment; `*` stands for any text.",
         column: "assign",
         role: Role::Way,
         values: Values::Names,
-        applies: is_clustered,
+        applies: Method::has_lists,
         count: |config| config.assign.len(),
         split: |config| each(&config.assign, |assign| Config { assign: vec![assign], ..config.clone() }),
         called: |run| vec![names(&run.assign)],
@@ -131,7 +145,7 @@ pub static AXES: [Axis; 6] = [
         column: "test",
         role: Role::Way,
         values: Values::Names,
-        applies: is_clustered,
+        applies: Method::has_lists,
         count: |config| config.test.len(),
         split: |config| {
             let method = config.methods[0];
@@ -295,10 +309,6 @@ fn names<T: ToString>(values: &[T]) -> String {
 fn name_and_stem(name: &str) -> Vec<String> {
     let stem = Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     [name.to_owned()].into_iter().chain(stem).collect()
-}
-
-fn is_clustered(method: &MethodSpec) -> bool {
-    *method != MethodSpec::AllLights
 }
 
 /// What tells a lighting from the others.

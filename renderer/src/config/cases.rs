@@ -1,8 +1,8 @@
 //! What the configuration of one run says: the way of assignment and the test.
 
 use super::{Assign, Config, LightsFrom};
-use crate::geometry::SphereTest;
-use crate::methods::{MethodSpec, Space};
+use crate::geometry::{CellShape, SphereTest};
+use crate::methods::Method;
 use crate::nearest;
 use clap::ValueEnum;
 use std::fmt;
@@ -19,7 +19,7 @@ pub enum Test {
 
 impl Test {
     /// What it is for the clusters of `method`; a method without clusters asks nothing.
-    pub fn of(self, method: &MethodSpec) -> SphereTest {
+    pub fn of(self, method: &Method) -> SphereTest {
         match self {
             Self::Named(test) => test,
             Self::Auto if has_boxes(method) => SphereTest::Box,
@@ -28,14 +28,14 @@ impl Test {
     }
 
     /// By its name for the clusters of `method`; a method without clusters has none.
-    pub fn resolved(self, method: &MethodSpec) -> Self {
-        if *method == MethodSpec::AllLights { Self::Auto } else { Self::Named(self.of(method)) }
+    pub fn resolved(self, method: &Method) -> Self {
+        if !method.has_lists() { Self::Auto } else { Self::Named(self.of(method)) }
     }
 }
 
 /// Whether the method's clusters are axis-aligned boxes.
-fn has_boxes(method: &MethodSpec) -> bool {
-    matches!(method, MethodSpec::Clustered { space: Space::Ortho { .. }, .. })
+fn has_boxes(method: &Method) -> bool {
+    method.kind().cells == Some(CellShape::Box)
 }
 
 impl Config {
@@ -92,12 +92,7 @@ impl FromStr for Assign {
 
     /// Reads what [`fmt::Display`] writes.
     fn from_str(text: &str) -> Result<Self, String> {
-        let all = Self::value_variants();
-        all.iter().find(|way| way.to_string() == text).copied().ok_or_else(|| {
-            let names: Vec<String> = all.iter().map(ToString::to_string).collect();
-            let names: Vec<&str> = names.iter().map(String::as_str).collect();
-            format!("`{text}` is no way of assignment{}", nearest::hint(text, &names))
-        })
+        nearest::named(text, Self::value_variants(), "way of assignment")
     }
 }
 

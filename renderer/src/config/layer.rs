@@ -2,14 +2,21 @@
 
 use super::values::{self, de};
 use super::{
-    Assign, Config, Culling, DisplacedVolume, Exclude, ExrFrames, FrameRange, Lighting, Marking, SceneEntry,
-    Scopes, Test, scenes, schema,
+    Assign, Clusters, Config, Culling, DisplacedVolume, Exclude, ExrFrames, FrameRange, Lighting, Marking,
+    SceneEntry, Scopes, Test, scenes, schema,
 };
 use crate::lights::Attenuation;
-use crate::methods::MethodSpec;
+use crate::methods::{KINDS, Method};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::PathBuf;
+
+/// Every kind of method, a line each.
+fn methods_help() -> String {
+    let lines = KINDS.iter().map(|kind| format!("  {}: {}", kind.pattern(), kind.about));
+    let head = "Methods, each a run; the flag is repeated for several. Sizes are numbers above 0:".to_owned();
+    [head].into_iter().chain(lines).collect::<Vec<_>>().join("\n")
+}
 
 /// What one source says of a [`Config`]. The same declaration is the JSON file, its schema and the flags,
 /// so that every field is a flag.
@@ -53,12 +60,11 @@ pub struct Layer {
     #[arg(long, value_name = "AXIS=NAME[|NAME],..")]
     pub exclude: Option<Vec<Exclude>>,
 
-    /// Methods, each a run: {indi,encl}-persp-PIXELS, {indi,encl}-ortho-METRES,
-    /// {indi,encl}-displ-PIXELS-METRES, or all-lights. The flag is repeated for several.
-    #[arg(long = "method", value_name = "METHOD", value_parser = values::method)]
+    /// Methods, each a run, by names with sizes.
+    #[arg(long = "method", value_name = "METHOD", value_parser = values::method, help = methods_help())]
     #[serde(default, deserialize_with = "de::methods")]
     #[schemars(schema_with = "schema::methods")]
-    pub methods: Option<Vec<MethodSpec>>,
+    pub methods: Option<Vec<Method>>,
 
     /// Falling lights: how many, intensity I (100), cut-off I0 (0.5), near radius R0 (0.1 m). Each lighting is
     /// a run of every method; the flag is repeated for several.
@@ -128,6 +134,13 @@ pub struct Layer {
     /// What the visible clusters of opaque and masked geometry are marked from.
     #[arg(long, value_enum)]
     pub marking: Option<Marking>,
+
+    /// Which clusters get light lists: `visible` (those that hold a fragment, which marking finds) or `all` of the grid, with
+    /// nothing marked. Of several, with commas between, each is a run of every method.
+    #[arg(long, value_enum, value_name = "LIST", value_delimiter = ',')]
+    #[serde(default, deserialize_with = "de::ways")]
+    #[schemars(schema_with = "schema::clusters")]
+    pub clusters: Option<Vec<Clusters>>,
 
     /// How the light lists are built; every way gives the same ones. Of several, with commas between, each is a run of
     /// every method.
@@ -206,6 +219,7 @@ impl Config {
         set(&mut self.trace, layer.trace);
         set(&mut self.attenuation, layer.attenuation);
         set(&mut self.marking, layer.marking);
+        set(&mut self.clusters, layer.clusters);
         set(&mut self.assign, layer.assign);
         set(&mut self.test, layer.test);
         set(&mut self.displaced_volume, layer.displaced_volume);

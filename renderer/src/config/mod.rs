@@ -23,11 +23,12 @@ pub use layer::Layer;
 pub use schema::json_schema;
 pub use values::resolution as parse_resolution;
 
-use crate::assign::{Assigner, Marking};
+use crate::assign::{Assigner, Clusters, Marking};
 use crate::culling::Culling;
 use crate::geometry::DisplacedVolume;
 use crate::lights::{Attenuation, Lighting, LightsFrom};
-use crate::methods::{MethodSpec, Sharing, Space};
+use crate::measure::Capacities;
+use crate::methods::{Method, Sharing, Space};
 use crate::{Error, Result};
 use clap::ValueEnum;
 use schemars::JsonSchema;
@@ -125,7 +126,7 @@ pub struct Config {
     pub exclude: Vec<Exclude>,
     /// Methods, each a run.
     #[serde(serialize_with = "values::ser::methods")]
-    pub methods: Vec<MethodSpec>,
+    pub methods: Vec<Method>,
     /// Lightings of the rain, each a run of every method; empty where lights come from a file or the scene.
     pub lights: Vec<Lighting>,
     /// Static lights from a CSV instead of the rain.
@@ -153,6 +154,9 @@ pub struct Config {
     pub attenuation: Attenuation,
     /// Marking strategy.
     pub marking: Marking,
+    /// Which clusters get lists, each a run of every method.
+    #[serde(serialize_with = "values::ser::one_or_several")]
+    pub clusters: Vec<Clusters>,
     /// How the light lists are built, each a run of every method.
     #[serde(serialize_with = "values::ser::one_or_several")]
     pub assign: Vec<Assign>,
@@ -200,6 +204,7 @@ impl Default for Config {
             trace: ExrFrames::List(Vec::new()),
             attenuation: Attenuation::PhyRed2,
             marking: Marking::Depth,
+            clusters: vec![Clusters::Visible],
             assign: vec![Assign::Brute],
             test: vec![Test::Auto],
             displaced_volume: DisplacedVolume::View,
@@ -215,14 +220,14 @@ impl Default for Config {
 }
 
 /// Persp 64, Ortho 4 and Displ 64 32, each Indi and Encl (Gelderen chapter 6).
-fn tuned_methods() -> Vec<MethodSpec> {
+fn tuned_methods() -> Vec<Method> {
     let spaces = [
         Space::Persp { pixels: 64.0 },
         Space::Ortho { metres: 4.0 },
         Space::Displ { pixels: 64.0, displacement: 32.0 },
     ];
     let both = [Sharing::Indi, Sharing::Encl];
-    spaces.iter().flat_map(|&space| both.map(|sharing| MethodSpec::Clustered { sharing, space })).collect()
+    spaces.iter().flat_map(|&space| both.map(|sharing| Method::grid(sharing, space))).collect()
 }
 
 impl Config {
@@ -263,6 +268,7 @@ impl Config {
             rule.check().map_err(at("exclude"))?;
         }
         values::check_methods(self.methods.clone()).map_err(at("methods"))?;
+        values::check_ways(self.clusters.clone()).map_err(at("clusters"))?;
         values::check_ways(self.assign.clone()).map_err(at("assign"))?;
         values::check_ways(self.test.clone()).map_err(at("test"))?;
         values::check_lights(self.lights.clone()).map_err(at("lights"))?;
@@ -297,6 +303,14 @@ impl Config {
                 "exclude: the rule {rule} matches no run: mend its names, or leave it out"
             ))),
             None => Ok(()),
+        }
+    }
+
+    /// What a clustering's buffers hold at first.
+    pub fn capacities(&self) -> Capacities {
+        Capacities {
+            visible_clusters: self.visible_cluster_capacity,
+            light_indices: self.light_index_capacity,
         }
     }
 

@@ -2,7 +2,9 @@
 
 use super::values::MAX_RESOLUTION;
 use super::{Assign, Config, Layer};
+use crate::assign::Clusters;
 use crate::lights::Attenuation;
+use crate::methods::{KINDS, Kind};
 use clap::ValueEnum;
 use schemars::{Schema, SchemaGenerator, json_schema};
 use serde_json::Value;
@@ -26,14 +28,17 @@ pub fn json_schema() -> Value {
 }
 
 pub(super) fn methods(_: &mut SchemaGenerator) -> Schema {
+    let pattern = |kind: &Kind| format!("{}{}", kind.name, "-[0-9.]+".repeat(kind.sizes.len()));
+    let patterns: Vec<String> = KINDS.iter().map(pattern).collect();
+    let tuned: Vec<String> = KINDS.iter().map(|kind| kind.tuned().to_string()).collect();
     json_schema!({
         "type": ["array", "null"],
         "minItems": 1,
         "uniqueItems": true,
         "items": {
             "type": "string",
-            "pattern": r"^(all-lights|(indi|encl)-(persp|ortho|displ-[0-9.]+)-[0-9.]+)$",
-            "examples": ["indi-persp-64", "encl-ortho-4", "indi-displ-64-32", "all-lights"]
+            "pattern": format!("^({})$", patterns.join("|")),
+            "examples": tuned
         }
     })
 }
@@ -79,8 +84,16 @@ fn one_or_several(name: &Schema) -> Schema {
     })
 }
 
+pub(super) fn clusters(_: &mut SchemaGenerator) -> Schema {
+    names_of(Clusters::value_variants())
+}
+
 pub(super) fn assign(_: &mut SchemaGenerator) -> Schema {
-    let names: Vec<String> = Assign::value_variants().iter().map(ToString::to_string).collect();
+    names_of(Assign::value_variants())
+}
+
+fn names_of<T: ToString>(values: &[T]) -> Schema {
+    let names: Vec<String> = values.iter().map(ToString::to_string).collect();
     one_or_several(&json_schema!({ "enum": names }))
 }
 

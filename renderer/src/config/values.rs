@@ -3,7 +3,7 @@
 
 use super::{Lighting, SceneEntry, Test, scenes};
 use crate::lights::Attenuation;
-use crate::methods::MethodSpec;
+use crate::methods::Method;
 use serde::de::{Error as _, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serializer};
 use std::fmt;
@@ -15,8 +15,8 @@ use std::str::FromStr;
 pub(super) const MAX_RESOLUTION: u32 = 16384;
 
 /// Reads a method's name.
-pub(super) fn method(text: &str) -> Result<MethodSpec, String> {
-    text.parse::<MethodSpec>().map_err(|error| error.to_string())
+pub(super) fn method(text: &str) -> Result<Method, String> {
+    text.parse::<Method>().map_err(|error| error.to_string())
 }
 
 /// Reads the name of a test of sphere against cluster.
@@ -66,7 +66,7 @@ pub(super) fn capacity(text: &str) -> Result<u32, String> {
 }
 
 /// Refuses an empty list of methods and one that names a method twice.
-pub(super) fn check_methods(methods: Vec<MethodSpec>) -> Result<Vec<MethodSpec>, String> {
+pub(super) fn check_methods(methods: Vec<Method>) -> Result<Vec<Method>, String> {
     if methods.is_empty() {
         return Err("no method: name at least one, such as indi-persp-64".into());
     }
@@ -117,7 +117,7 @@ pub(super) fn check_path(path: &Path) -> Result<(), String> {
 }
 
 /// One method in a JSON list.
-struct MethodText(MethodSpec);
+struct MethodText(Method);
 
 impl<'de> Deserialize<'de> for MethodText {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -185,7 +185,7 @@ pub(super) mod de {
         checked(d, check_text)
     }
 
-    pub fn methods<'de, D: Deserializer<'de>>(d: D) -> Result<Option<Vec<MethodSpec>>, D::Error> {
+    pub fn methods<'de, D: Deserializer<'de>>(d: D) -> Result<Option<Vec<Method>>, D::Error> {
         checked(d, |list: Vec<MethodText>| check_methods(list.into_iter().map(|method| method.0).collect()))
     }
 
@@ -226,7 +226,7 @@ pub(super) mod de {
 pub(super) mod ser {
     use super::*;
 
-    pub fn methods<S: Serializer>(methods: &[MethodSpec], serializer: S) -> Result<S::Ok, S::Error> {
+    pub fn methods<S: Serializer>(methods: &[Method], serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(methods.iter().map(ToString::to_string))
     }
 

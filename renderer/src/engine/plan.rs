@@ -3,11 +3,10 @@
 use crate::config::Config;
 use crate::geometry::Grid;
 use crate::geometry::views::View;
-use crate::methods::{MethodSpec, Sharing, grid};
+use crate::methods::Method;
 use crate::recording::Recording;
 use crate::{Error, Result, origin};
 use glam::DVec3;
-use std::ops::Range;
 
 /// One frame as planned on the host.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +20,11 @@ pub struct FramePlan {
 }
 
 impl FramePlan {
+    /// The grid in which a view looks lights up.
+    pub fn grid_of(&self, method: Method, view: usize) -> Option<&Grid> {
+        self.grids.get(method.kind().sharing.clustering_of(view))
+    }
+
     /// What positions on the device are relative to in this frame, metres.
     pub fn origin(&self) -> DVec3 {
         origin::of_views(&self.views)
@@ -30,23 +34,19 @@ impl FramePlan {
 /// Clusters of a grid that 32-bit indices and the visibility words still serve.
 const MAX_CLUSTERS: u64 = 1 << 27;
 
-/// Plans every frame that the config asks for.
+/// Plans every frame that a run's configuration, which has one method, asks for.
 ///
 /// # Errors
 /// A frame range outside the recording, a method that cannot serve the views, a grid that is too large.
-pub fn plan_frames(config: &Config, recording: &Recording, method: &MethodSpec) -> Result<Vec<FramePlan>> {
-    let frames = config.frame_numbers(recording.frame_count())?;
-    frames.into_iter().map(|frame| plan_frame(config, recording, method, frame)).collect()
+pub fn plan_frames(run: &Config, recording: &Recording) -> Result<Vec<FramePlan>> {
+    let frames = run.frame_numbers(recording.frame_count())?;
+    frames.into_iter().map(|frame| plan_frame(run, recording, frame)).collect()
 }
 
-fn plan_frame(config: &Config, recording: &Recording, method: &MethodSpec, frame: u32) -> Result<FramePlan> {
-    let views = recording.views(frame, config.resolution)?;
-    let grids = match *method {
-        MethodSpec::AllLights => vec![],
-        MethodSpec::Clustered { sharing, space } => {
-            grid::plan(space, sharing, &views, config.resolution, config.displaced_volume)?
-        }
-    };
+fn plan_frame(run: &Config, recording: &Recording, frame: u32) -> Result<FramePlan> {
+    let method = run.methods[0];
+    let views = recording.views(frame, run.resolution)?;
+    let grids = method.plan(&views, run.resolution, run.displaced_volume)?;
     for grid in &grids {
         if grid.cluster_count() > MAX_CLUSTERS {
             let [x, y, z] = grid.dimensions;
@@ -57,12 +57,4 @@ fn plan_frame(config: &Config, recording: &Recording, method: &MethodSpec, frame
         }
     }
     Ok(FramePlan { frame, views, grids })
-}
-
-/// Which views look up each clustering; one clustering of all views for a method without grids.
-pub fn views_of_clusterings(method: &MethodSpec, views: usize) -> Vec<Range<usize>> {
-    match method {
-        MethodSpec::Clustered { sharing: Sharing::Indi, .. } => (0..views).map(|v| v..v + 1).collect(),
-        _ => std::iter::once(0..views).collect(),
-    }
 }

@@ -1,132 +1,25 @@
 //! What all runs of a replay share: device, scene, render targets, frames in flight.
 
+use super::Slot;
 use super::requirements::check_device;
 use crate::buffers::BufferName;
 use crate::clustering::{SLOTS, make_buffer};
 use crate::config::Config;
-use crate::draw_list::{Batches, DrawList};
-use crate::draw_slots::{DrawSlots, SlotOrder};
-use crate::frame::{DrawBuffers, Layer, ViewTargets};
+use crate::draw_list::Batches;
+use crate::draw_slots::DrawSlots;
 use crate::geometry::views::ViewSet;
-use crate::gpu_interface::{DrawCommand, DrawCounts, MAX_VIEWS, ViewData};
+use crate::gpu_interface::{DrawCommand, DrawCounts, MAX_VIEWS};
 use crate::gpu_scene::GpuScene;
 use crate::layouts::{DEPTH_SET, DescriptorSets, Layouts};
-use crate::pass::{FrameTracker, Timestamps};
-use crate::passes::readback::STATE_BYTES;
+use crate::pass::FrameTracker;
+use crate::passes::{DrawBuffers, Layer, ViewTargets};
 use crate::pipelines::{COLOR_FORMAT, DEPTH_FORMAT, PipelineStore};
 use crate::scene::Scene;
 use crate::texture_sets::drawn_sets;
-use crate::vk::{Buffer, Context, DeviceOptions, Image, ImageDesc, Memory, ShaderLibrary};
+use crate::vk::{Context, DeviceOptions, Image, ImageDesc, Memory, ShaderLibrary};
 use crate::{Error, Result, buffers, gpu_interface};
 use ash::vk;
 use std::sync::Arc;
-
-/// One frame in flight: commands, fence, queries and what the host writes and reads.
-pub struct Slot {
-    context: Arc<Context>,
-    pool: vk::CommandPool,
-    /// Recorded anew each frame.
-    pub commands: vk::CommandBuffer,
-    /// Signalled when the frame has ended.
-    pub fence: vk::Fence,
-    /// Its scopes' times.
-    pub timestamps: Timestamps,
-    /// [`ViewData`] of all views, mapped.
-    pub views: Buffer,
-    /// Of each view, whether it sees the world in a mirror.
-    pub mirrored: Vec<bool>,
-    /// Each clustering's state, mapped.
-    pub states: Buffer,
-    /// What each view draws, and all at once, where the host culls.
-    pub draw_lists: Vec<DrawList>,
-    /// In which order each view draws, and all at once, where the device culls.
-    pub slot_orders: Vec<SlotOrder>,
-    /// [`DrawCounts`] and the transparent slots of all views in their order, mapped.
-    pub draw_order: Buffer,
-}
-
-impl Slot {
-    fn new(context: &Arc<Context>, views: usize, counts: DrawCounts) -> Result<Self> {
-        let failed = |e: vk::Result| Error::Device(format!("cannot make a frame in flight: {e}"));
-        let device = &context.device;
-        let info = vk::CommandPoolCreateInfo::default()
-            .queue_family_index(context.queue_family)
-            .flags(vk::CommandPoolCreateFlags::TRANSIENT);
-        let pool = unsafe { device.create_command_pool(&info, None) }.map_err(failed)?;
-        let info = vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
-        let commands = unsafe { device.allocate_command_buffers(&info) }.map_err(failed)?[0];
-        let fence = unsafe { device.create_fence(&vk::FenceCreateInfo::default(), None) }.map_err(failed)?;
-        context.name(pool, "frame");
-        context.name(commands, "frame");
-        context.name(fence, "frame");
-        Ok(Self {
-            context: context.clone(),
-            pool,
-            commands,
-            fence,
-            timestamps: Timestamps::new(context, views)?,
-            views: make_buffer(
-                context,
-                BufferName::Views,
-                u64::from(MAX_VIEWS) * size_of::<ViewData>() as u64,
-                Memory::Upload,
-            )?,
-            mirrored: vec![],
-            states: Buffer::new(
-                context,
-                "states",
-                views as u64 * STATE_BYTES,
-                vk::BufferUsageFlags::TRANSFER_DST,
-                Memory::Readback,
-            )?,
-            draw_lists: vec![DrawList::default(); views + 1],
-            slot_orders: vec![SlotOrder::default(); views + 1],
-            draw_order: draw_order(context, views, counts)?,
-        })
-    }
-
-    /// Opens the command buffer for recording; its last frame must have ended.
-    pub fn begin(&self) -> Result<()> {
-        let device = &self.context.device;
-        let info = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
-        unsafe {
-            device
-                .reset_command_pool(self.pool, vk::CommandPoolResetFlags::empty())
-                .and_then(|()| device.begin_command_buffer(self.commands, &info))
-        }
-        .map_err(|e| Error::Internal(format!("cannot begin recording a frame: {e}")))
-    }
-
-    /// Closes the command buffer and hands it to the device.
-    pub fn submit(&self) -> Result<()> {
-        unsafe { self.context.device.end_command_buffer(self.commands) }
-            .map_err(|e| Error::Internal(format!("cannot end recording a frame: {e}")))?;
-        self.context.submit(self.commands, self.fence)
-    }
-
-    /// Waits until the submitted frame has ended.
-    pub fn wait(&self) -> Result<()> {
-        let device = &self.context.device;
-        unsafe {
-            device
-                .wait_for_fences(&[self.fence], true, u64::MAX)
-                .and_then(|()| device.reset_fences(&[self.fence]))
-        }
-        .map_err(|e| Error::Internal(format!("the device failed while rendering a frame: {e}")))
-    }
-}
-
-impl Drop for Slot {
-    fn drop(&mut self) {
-        let device = &self.context.device;
-        unsafe {
-            // A frame may still be running when an error unwinds.
-            let _ = device.device_wait_idle();
-            device.destroy_fence(self.fence, None);
-            device.destroy_command_pool(self.pool, None);
-        }
-    }
-}
 
 /// Device, scene, targets and frames in flight of a replay.
 pub struct Session {
@@ -183,14 +76,6 @@ impl Session {
             context,
         })
     }
-}
-
-/// Counts, and room for the order of every view's transparent slots.
-fn draw_order(context: &Arc<Context>, views: usize, counts: DrawCounts) -> Result<Buffer> {
-    let size = size_of::<DrawCounts>() + 4 * views * counts.transparents as usize;
-    let buffer = make_buffer(context, BufferName::DrawOrder, size as u64, Memory::Upload)?;
-    buffer.write(0, &[counts]);
-    Ok(buffer)
 }
 
 fn draw_buffers(context: &Arc<Context>, views: usize, counts: DrawCounts) -> Result<DrawBuffers> {

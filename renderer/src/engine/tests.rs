@@ -2,23 +2,27 @@
 
 use super::*;
 use crate::cpu;
-use crate::frame::{Eyes, light_lists};
 use crate::geometry::views::{Pose, View, ViewSet};
 use crate::geometry::{ClusterSpace, Frustum, Grid};
-use crate::lights::Lighting;
 use crate::lights::rain::{Rain, RainParameters};
+use crate::lights::{Lighting, PointLight};
+use crate::measure::Capacities;
+use crate::methods::grid::light_lists;
 use crate::methods::{Sharing, Space};
 use crate::pass::BufferCopy;
-use crate::passes::{assign, depth, readback, scan};
+use crate::passes::{Eyes, VisibleClusters, assign, depth, lights as light_upload, readback, scan};
 use crate::scene::Scene;
 use crate::scene::procedural::by_name;
 use glam::{DQuat, DVec3};
 
-const PERSP: MethodSpec =
-    MethodSpec::Clustered { sharing: Sharing::Indi, space: Space::Persp { pixels: 64.0 } };
-const ORTHO: MethodSpec =
-    MethodSpec::Clustered { sharing: Sharing::Indi, space: Space::Ortho { metres: 4.0 } };
+const PERSP: Method = Method::grid(Sharing::Indi, Space::Persp { pixels: 64.0 });
+const ORTHO: Method = Method::grid(Sharing::Indi, Space::Ortho { metres: 4.0 });
 const RESOLUTION: [u32; 2] = [64, 32];
+
+/// The visible clusters that a test put on the device.
+fn given() -> VisibleClusters {
+    VisibleClusters::given(0)
+}
 
 fn config() -> Config {
     Config { resolution: RESOLUTION, validate: true, ..Config::default() }
@@ -60,16 +64,17 @@ struct Bench {
     engine: Engine,
     session: Session,
     words: u64,
+    revision: u64,
 }
 
 impl Bench {
-    fn new(method: MethodSpec, grid: Grid, lights: &[PointLight], capacities: Capacities) -> Self {
+    fn new(method: Method, grid: Grid, lights: &[PointLight], capacities: Capacities) -> Self {
         Self::with_config(&config(), method, grid, lights, capacities)
     }
 
     fn with_config(
         config: &Config,
-        method: MethodSpec,
+        method: Method,
         grid: Grid,
         lights: &[PointLight],
         capacities: Capacities,
@@ -80,7 +85,7 @@ impl Bench {
     fn with_scene(
         config: &Config,
         scene: &Scene,
-        (method, grid): (MethodSpec, Grid),
+        (method, grid): (Method, Grid),
         lights: &[PointLight],
         capacities: Capacities,
     ) -> Self {
@@ -89,11 +94,19 @@ impl Bench {
         let plan = frame_of(grid);
         let plans = std::slice::from_ref(&plan);
         let assigner = config.assign[0].fixed().expect("tests name what they test");
-        let test = config.test[0].of(&method);
-        let mode = Mode { lights: lights.len() as u32, capacities, assigner, test, counting: true };
-        let mut engine = Engine::new(&mut session, config, method, plans, mode).unwrap();
-        engine.write_host_data(&mut session, 0, &plan, lights).unwrap();
-        Self { engine, session, words }
+        let run = Config { methods: vec![method], ..config.clone() };
+        let mode = Mode { lights: lights.len() as u32, capacities, assigner, counting: true };
+        let engine = Engine::new(&mut session, &run, LargestGrid::of(plans), mode).unwrap();
+        let mut this = Self { engine, session, words, revision: 0 };
+        this.write(&plan, lights);
+        this
+    }
+
+    /// Writes what a frame is made from, with other lights than before.
+    fn write(&mut self, plan: &FramePlan, list: &[PointLight]) {
+        self.revision += 1;
+        let lights = FrameLights { list, revision: self.revision };
+        self.engine.write_host_data(&mut self.session, 0, plan, lights).unwrap();
     }
 
     fn run(&mut self, commands: impl FnOnce(&mut Recorder, &Frame)) {
@@ -156,8 +169,8 @@ impl Bench {
     /// The lists of what [`Self::compact`] made visible.
     fn lists(&mut self) -> Lists {
         self.run(|r, frame| {
-            crate::passes::lights::record(r, frame);
-            light_lists(r, frame, 0);
+            let lights = light_upload::record(r, frame);
+            light_lists(r, frame, lights, given());
             readback::states(r, frame);
         });
         let state = self.engine.states(&self.session, 0)[0];
@@ -243,7 +256,7 @@ fn list_offsets_equal_their_twin_at_odd_sizes() {
         let counts: Vec<u32> = (0..state.visible).map(|_| random() % 100).collect();
         bench.upload(BufferName::ListLengths, &counts);
         bench.run(|r, frame| {
-            scan::light_offsets(r, frame, 0);
+            scan::light_offsets(r, frame, given());
             readback::states(r, frame);
         });
         let twin = cpu::scan(&counts);
@@ -261,7 +274,7 @@ fn totals_beyond_32_bits_saturate_and_offsets_never_descend() {
         let state = bench.compact(&random_bits(u64::from(clusters), 1, 1));
         bench.upload(BufferName::ListLengths, &vec![1 << 24; state.visible as usize]);
         bench.run(|r, frame| {
-            scan::light_offsets(r, frame, 0);
+            scan::light_offsets(r, frame, given());
             readback::states(r, frame);
         });
         let offsets = bench.download(BufferName::ListOffsets, clusters as usize + 1);
@@ -278,10 +291,10 @@ fn staged_times(bench: &mut Bench, compute: u32, raster: u32) -> [f64; 2] {
     for _ in 0..4 {
         bench.run(|r, frame| {
             r.scope("frame", |r| {
-                crate::passes::cull::record(r, frame, Eyes::One(0));
+                crate::passes::cull::record(r, frame);
                 r.scope("compute", |r| {
                     for _ in 0..compute {
-                        assign::count_lights(r, frame, 0);
+                        assign::count_lights(r, frame, given());
                     }
                 });
                 r.scope("raster", |r| {

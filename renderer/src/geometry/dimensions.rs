@@ -38,6 +38,12 @@ pub fn from_pixels(frustum: &Frustum, resolution: [u32; 2], pixels: f64) -> Pers
     PerspectiveDimensions::new(columns, rows, frustum, side_in_tangents(frustum, resolution, pixels))
 }
 
+/// Tiles of `pixels` squared on a screen of `resolution` pixels: one slice from the near to the far plane.
+pub fn tiles_from_pixels(frustum: &Frustum, resolution: [u32; 2], pixels: f64) -> PerspectiveDimensions {
+    let [columns, rows] = resolution.map(|side| round_up(f64::from(side) / pixels));
+    PerspectiveDimensions { dimensions: DVec3::new(columns, rows, 1.0), ratio: depth_span(frustum).exp_m1() }
+}
+
 /// The mean of the two sides of a cluster of Persp P, in tangents: clusters become about as deep as wide.
 pub fn side_in_tangents(frustum: &Frustum, resolution: [u32; 2], pixels: f64) -> f64 {
     let [columns, rows] = resolution.map(|side| f64::from(side) / pixels);

@@ -7,6 +7,15 @@ use glam::DVec3;
 /// How far outside the grid, relative to its dimensions, a point still counts as on its rim.
 const RIM: f64 = 1e-9;
 
+/// What the cells of a grid look like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CellShape {
+    /// Pieces of a frustum.
+    Frustum,
+    /// Boxes along the axes.
+    Box,
+}
+
 /// The shape of a grid, in clustering space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ClusterSpace {

@@ -13,16 +13,19 @@ mod enclosing;
 mod frustum;
 mod grid;
 mod piece;
+mod sharing;
 mod sphere;
 mod sphere_test;
 pub mod views;
 
 pub use dimensions::{
     PerspectiveDimensions, average_volume, from_metres, from_pixels, from_volume, side_in_tangents,
+    tiles_from_pixels,
 };
 pub use displaced::{DisplacedVolume, displaced};
 pub use enclosing::{Enclosing, enclosing};
 pub use frustum::Frustum;
-pub use grid::{ClusterSpace, Grid, cell_at};
+pub use grid::{CellShape, ClusterSpace, Grid, cell_at};
+pub use sharing::Sharing;
 pub use sphere::{CellTest, Plane, axis_box, half_space};
 pub use sphere_test::{Candidates, SphereTest};

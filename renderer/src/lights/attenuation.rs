@@ -73,11 +73,7 @@ impl FromStr for Attenuation {
     type Err = String;
 
     fn from_str(name: &str) -> Result<Self, String> {
-        let found = Self::ALL.into_iter().find(|attenuation| attenuation.name() == name);
-        found.ok_or_else(|| {
-            let hint = nearest::hint(name, &Self::ALL.map(Self::name));
-            format!("`{name}` is no attenuation function{hint}")
-        })
+        nearest::named(name, &Self::ALL, "attenuation function")
     }
 }
 

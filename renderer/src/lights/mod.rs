@@ -9,7 +9,7 @@ pub use attenuation::Attenuation;
 pub use csv_file::{LightsFile, load_csv};
 pub use lighting::{Lighting, LightsFrom};
 
-use crate::lights::rain::Rain;
+use self::rain::Rain;
 use crate::scene::SceneLight;
 use crate::{Error, Result};
 use serde::Serialize;
@@ -73,25 +73,35 @@ fn require(
     if holds { Ok(()) } else { Err((column, format!("{value} is not {wanted}"))) }
 }
 
-/// Where a replay's lights come from.
-#[derive(Debug, Clone, PartialEq)]
-pub enum LightSource {
-    /// Falling lights, another list every frame.
-    Rain(Rain),
-    /// The same list in every frame.
-    Static(Vec<PointLight>),
+/// The lights of one frame.
+#[derive(Debug, Clone, Copy)]
+pub struct FrameLights<'a> {
+    /// Light k keeps its place from frame to frame.
+    pub list: &'a [PointLight],
+    /// Two lists of one source with the same revision are the same.
+    pub revision: u64,
 }
 
-impl LightSource {
-    /// The lights of `frame`; light k keeps its place from frame to frame.
-    pub fn at_frame(&mut self, frame: u32) -> &[PointLight] {
-        match self {
-            Self::Rain(rain) => {
-                rain.advance_to(frame);
-                rain.lights()
-            }
-            Self::Static(lights) => lights,
-        }
+/// What gives every frame its lights: rain, or lights that stay.
+pub trait LightSource {
+    /// The lights of `frame`.
+    fn at_frame(&mut self, frame: u32) -> FrameLights<'_>;
+}
+
+/// Lights that do not change.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StaticLights(pub Vec<PointLight>);
+
+impl LightSource for StaticLights {
+    fn at_frame(&mut self, _: u32) -> FrameLights<'_> {
+        FrameLights { list: &self.0, revision: 0 }
+    }
+}
+
+impl LightSource for Rain {
+    fn at_frame(&mut self, frame: u32) -> FrameLights<'_> {
+        self.advance_to(frame);
+        FrameLights { list: self.lights(), revision: frame.into() }
     }
 }
 
@@ -192,11 +202,17 @@ mod tests {
     fn a_source_gives_the_lights_of_any_frame() {
         let lighting = Lighting { count: 10, intensity: 20.0, cutoff: 0.5, r0: 0.1 };
         let at = |frame| Rain::new(&RainParameters::default(), &lighting, 1.0 / 90.0, frame).unwrap();
-        let mut source = LightSource::Rain(at(0));
+        let mut source = at(0);
+        let mut revisions = vec![];
         for frame in [7, 3, 3, 40] {
-            assert_eq!(source.at_frame(frame), at(frame).lights());
+            let lights = source.at_frame(frame);
+            assert_eq!(lights.list, at(frame).lights());
+            revisions.push(lights.revision);
         }
+        assert!(revisions[1] == revisions[2] && revisions[0] != revisions[1] && revisions[2] != revisions[3]);
         let lights = at(5).lights().to_vec();
-        assert_eq!(LightSource::Static(lights.clone()).at_frame(9), lights);
+        let mut source = StaticLights(lights.clone());
+        assert_eq!(source.at_frame(9).list, lights);
+        assert_eq!(source.at_frame(9).revision, source.at_frame(2).revision);
     }
 }

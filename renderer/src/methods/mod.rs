@@ -1,9 +1,60 @@
-//! The ways of finding the lights of a fragment, by name.
+//! The ways of finding the lights of a fragment. [`KINDS`] is the one table of them: name, sizes, and what each can do.
 //!
-//! A method's name is its identity everywhere: on the command line, in configs, as run directory and as
-//! row of every table. `indi-persp-64`, `encl-ortho-4`, `indi-displ-64-32`, `all-lights`.
+//! A method's name is its identity everywhere: on the command line, in configurations, as run directory and as row of every
+//! table. `indi-persp-64`, `encl-ortho-4`, `indi-displ-64-32`, `tiled-16`, `all-lights`.
+//!
+//! ```text
+//! plan (pure, f64) -> resources -> record (passes) -> lookup/<name>.glsl (shading) -> twin (CPU)
+//! ```
+//!
+//! A family of methods is a folder with these parts.
 
+pub mod all_lights;
 pub mod grid;
-mod spec;
+mod kinds;
+mod name;
 
-pub use spec::{MethodSpec, Sharing, Space};
+pub use crate::geometry::Sharing;
+pub use grid::{GridMethod, Space};
+pub use kinds::{KINDS, Kind};
+
+use crate::Result;
+use crate::geometry::views::View;
+use crate::geometry::{DisplacedVolume, Grid};
+use crate::pass::Recorder;
+use crate::passes::{Depth, Frame, LightLists, Lights};
+
+/// A method: how the lights of a fragment are found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Method {
+    /// Brute force: every fragment evaluates every light.
+    AllLights,
+    /// By the cells of grids.
+    Grid(GridMethod),
+}
+
+impl Method {
+    /// A method of grids with implicit bounds and lists by offsets.
+    pub const fn grid(sharing: Sharing, space: Space) -> Self {
+        Self::Grid(GridMethod::new(sharing, space))
+    }
+
+    /// The grids of a frame: one a view for [`Sharing::Indi`], one for [`Sharing::Encl`], none for a method without.
+    ///
+    /// # Errors
+    /// Views or sizes that it cannot serve; see [`grid::plan`].
+    pub fn plan(&self, views: &[View], resolution: [u32; 2], volume: DisplacedVolume) -> Result<Vec<Grid>> {
+        match self {
+            Self::AllLights => Ok(vec![]),
+            Self::Grid(grid) => grid::plan(grid.space, grid.sharing, views, resolution, volume),
+        }
+    }
+
+    /// Records what shading needs to find lights; the depth that comes back is what that took.
+    pub fn record(&self, r: &mut Recorder, frame: &Frame, lights: Lights) -> (Depth, LightLists) {
+        match self {
+            Self::AllLights => all_lights::record(),
+            Self::Grid(_) => grid::record(r, frame, lights),
+        }
+    }
+}

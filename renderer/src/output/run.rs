@@ -11,7 +11,7 @@ use super::{tables, trace};
 use crate::config::{Assign, Config, Labels, Test, run_name};
 use crate::lights::LightsFrom;
 use crate::measure::{FrameCounts, FrameTimes, FrameTrace, ViewPixels};
-use crate::methods::MethodSpec;
+use crate::methods::Method;
 use crate::{Error, Result};
 use image::RgbImage;
 use std::fs::File;
@@ -22,7 +22,7 @@ use std::path::Path;
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlannedRun {
     /// How lights are found.
-    pub method: MethodSpec,
+    pub method: Method,
     /// Where lights come from.
     pub lights: LightsFrom,
     /// How the light lists are built.

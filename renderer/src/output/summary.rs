@@ -2,7 +2,7 @@
 
 use super::rows::FrameRow;
 use crate::config::{Axis, Labels, Role};
-use crate::methods::{MethodSpec, Sharing, Space};
+use crate::methods::Method;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
@@ -105,7 +105,7 @@ fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunMeans {
     /// How lights were found.
-    pub method: MethodSpec,
+    pub method: Method,
     /// What it is called.
     pub labels: Labels,
     /// How many frames the means are over.
@@ -200,8 +200,8 @@ fn reference(runs: &[RunMeans], of: &RunMeans) -> usize {
     find(&|run| is_indi_persp(&run.method)).or_else(|| find(&|_| true)).unwrap_or(0)
 }
 
-fn is_indi_persp(method: &MethodSpec) -> bool {
-    matches!(method, MethodSpec::Clustered { sharing: Sharing::Indi, space: Space::Persp { .. } })
+fn is_indi_persp(method: &Method) -> bool {
+    method.kind().name == "indi-persp"
 }
 
 impl Kind {

@@ -76,6 +76,18 @@ pub struct Dispatch<'a> {
     pub push: Push,
 }
 
+impl<'a> Dispatch<'a> {
+    /// A pass that needs no depth image and is told nothing besides; `reads` and `writes` as in its fields.
+    pub fn new(
+        pipeline: &'a Pipeline,
+        buffers: BoundBuffers<'a>,
+        size: Size,
+        (reads, writes): (BufferSet, BufferSet),
+    ) -> Self {
+        Self { pipeline, buffers, size, reads, writes, depth: None, push: Push::default() }
+    }
+}
+
 impl Recorder<'_> {
     /// Records a compute pass, after all that it reads and writes.
     pub fn dispatch(&mut self, pass: &Dispatch) {

@@ -10,91 +10,90 @@
 //! Where the masks have no room the device sizes the dispatches otherwise: pairs are found twice, counted first and then
 //! written, and the lists are sorted.
 
+use super::handles::{LightLists, Lights, VisibleClusters};
+use super::inputs::Frame;
 use super::scan::group_tiles;
 use crate::assign::Assigner;
 use crate::buffers::{BufferName as B, BufferSet, set};
-use crate::frame::Frame;
 use crate::gpu_interface::{
     ASSIGN_GROUP, DISPATCH_GROUPS, DISPATCH_LISTS, DISPATCH_MASKED, DISPATCH_MEET, DISPATCH_MEET_AGAIN,
     DISPATCH_UNMASKED,
 };
 use crate::layouts::Pipeline;
-use crate::pass::{Dispatch, Push, Recorder, Size};
+use crate::pass::{Dispatch, Recorder, Size};
 
 /// Lights into the clustering camera's space.
-pub fn transform_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
+pub fn transform_lights(r: &mut Recorder, frame: &Frame, _lights: Lights, visible: VisibleClusters) {
     r.scope("transform_lights", |r| {
-        r.dispatch(&Dispatch {
-            pipeline: &frame.pipelines.clustered().transform_lights,
-            buffers: frame.buffers(clustering),
-            size: Size::threads(frame.light_count, ASSIGN_GROUP),
-            reads: set(&[B::Lights]),
-            writes: set(&[B::LightSpheres]),
-            depth: None,
-            push: Push::default(),
-        });
+        r.dispatch(&Dispatch::new(
+            &frame.pipelines.clustered().transform_lights,
+            frame.buffers(visible.clustering),
+            Size::threads(frame.light_count, ASSIGN_GROUP),
+            (set(&[B::Lights]), set(&[B::LightSpheres])),
+        ));
     });
 }
 
 /// Lengths of the lists.
-pub fn count_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
+pub fn count_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
     r.scope("count_lights", |r| {
         let pipelines = frame.pipelines.clustered();
         let (reads, writes) = (set(&[B::State]), set(&[B::LightMasks, B::ListLengths]));
-        indirect(r, frame, clustering, (&pipelines.clear_lists, DISPATCH_LISTS), (reads, writes));
+        indirect(r, frame, visible, (&pipelines.clear_lists, DISPATCH_LISTS), (reads, writes));
         if frame.assigner == Assigner::Scatter {
-            to_groups(r, frame, clustering);
+            to_groups(r, frame, visible);
         }
         let writes = set(&[B::LightMasks, B::ListLengths, B::Counters]);
-        meet(r, frame, clustering, (&pipelines.count_lights, DISPATCH_MEET), (reads, writes));
+        meet(r, frame, visible, (&pipelines.count_lights, DISPATCH_MEET), (reads, writes));
         // Brute force writes whole words of bits, and counts as it does.
         if frame.assigner != Assigner::Brute {
             let (reads, writes) = (set(&[B::State, B::LightMasks]), set(&[B::ListLengths]));
-            indirect(r, frame, clustering, (&pipelines.read_masks[0], DISPATCH_MASKED), (reads, writes));
+            indirect(r, frame, visible, (&pipelines.read_masks[0], DISPATCH_MASKED), (reads, writes));
         }
     });
 }
 
 /// The lists themselves, each by ascending light.
-pub fn assign_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
+pub fn assign_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) -> LightLists {
     r.scope("assign_lights", |r| {
-        write_lists(r, frame, clustering);
-        sort_lists(r, frame, clustering);
+        write_lists(r, frame, visible);
+        sort_lists(r, frame, visible);
     });
+    LightLists::of(visible)
 }
 
 /// Writes the lists: off their bits, in order, or else pair by pair, in any order.
-pub(crate) fn write_lists(r: &mut Recorder, frame: &Frame, clustering: usize) {
+pub(crate) fn write_lists(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
     let pipelines = frame.pipelines.clustered();
     let (offsets, indices) = (set(&[B::State, B::ListOffsets]), set(&[B::LightIndices]));
     let reads = offsets | set(&[B::LightMasks, B::Candidates]);
-    indirect(r, frame, clustering, (&pipelines.read_masks[1], DISPATCH_MASKED), (reads, indices));
+    indirect(r, frame, visible, (&pipelines.read_masks[1], DISPATCH_MASKED), (reads, indices));
     let writes = indices | set(&[B::ListLengths]);
-    meet(r, frame, clustering, (&pipelines.assign_lights, DISPATCH_MEET_AGAIN), (offsets, writes));
+    meet(r, frame, visible, (&pipelines.assign_lights, DISPATCH_MEET_AGAIN), (offsets, writes));
 }
 
 /// Sorts lists that were written in any order.
-pub(crate) fn sort_lists(r: &mut Recorder, frame: &Frame, clustering: usize) {
+pub(crate) fn sort_lists(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
     let reads = set(&[B::State, B::ListOffsets, B::Candidates]);
     let sort = (&*frame.pipelines.clustered().sort_lists, DISPATCH_UNMASKED);
-    indirect(r, frame, clustering, sort, (reads, set(&[B::LightIndices])));
+    indirect(r, frame, visible, sort, (reads, set(&[B::LightIndices])));
 }
 
 /// Takes candidates to groups of visible clusters: counts them, and lists them.
-fn to_groups(r: &mut Recorder, frame: &Frame, clustering: usize) {
+fn to_groups(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
     let [count, list] = &frame.pipelines.accelerated().scatter_groups;
     let (reads, groups) = (set(&[B::State, B::Candidates]), set(&[B::Groups]));
-    indirect(r, frame, clustering, (count, DISPATCH_GROUPS), (reads, groups));
-    group_tiles(r, frame, clustering);
+    indirect(r, frame, visible, (count, DISPATCH_GROUPS), (reads, groups));
+    group_tiles(r, frame, visible);
     let lists = groups | set(&[B::GroupLights]);
-    indirect(r, frame, clustering, (list, DISPATCH_GROUPS), (reads, lists));
+    indirect(r, frame, visible, (list, DISPATCH_GROUPS), (reads, lists));
 }
 
 /// Finds the pairs of light and visible cluster that meet, by what the way at hand has made of the lights.
 fn meet(
     r: &mut Recorder,
     frame: &Frame,
-    clustering: usize,
+    visible: VisibleClusters,
     dispatch: (&Pipeline, u32),
     (reads, writes): (BufferSet, BufferSet),
 ) {
@@ -104,24 +103,17 @@ fn meet(
         Assigner::Scatter => set(&[B::LightSpheres, B::Groups, B::TileGroups, B::GroupLights]),
     };
     let reads = reads | lights | set(&[B::VisibleClusters]);
-    indirect(r, frame, clustering, dispatch, (reads, writes));
+    indirect(r, frame, visible, dispatch, (reads, writes));
 }
 
 /// Runs a pipeline with the size in a slot of the dispatches.
 fn indirect(
     r: &mut Recorder,
     frame: &Frame,
-    clustering: usize,
+    visible: VisibleClusters,
     (pipeline, slot): (&Pipeline, u32),
-    (reads, writes): (BufferSet, BufferSet),
+    declared: (BufferSet, BufferSet),
 ) {
-    r.dispatch(&Dispatch {
-        pipeline,
-        buffers: frame.buffers(clustering),
-        size: Size::Indirect(slot),
-        reads,
-        writes,
-        depth: None,
-        push: Push::default(),
-    });
+    let buffers = frame.buffers(visible.clustering);
+    r.dispatch(&Dispatch::new(pipeline, buffers, Size::Indirect(slot), declared));
 }

@@ -1,9 +1,9 @@
 //! Stage `clay` of stills: opaque and masked surfaces without their shading, so that every camera sees something.
 
 use super::draws::{self, ColorUse, DepthUse, SurfacePass, SurfacePipelines};
+use super::inputs::{Eyes, Frame};
 use crate::buffers::BufferSet;
 use crate::draw_list::SurfaceKind;
-use crate::frame::{Eyes, Frame};
 use crate::pass::Recorder;
 use crate::pipelines::DebugPipelines;
 

@@ -1,20 +1,25 @@
 //! Stage `cull[v]`, with multiview `cull` for all views: which instances they may see, as the indirect commands that draw
 //! them. Where the host culls, there is none.
 
+use super::inputs::{Draws, Eyes, Frame};
 use crate::buffers::{BufferName as B, BufferSet, set};
-use crate::frame::{Draws, Eyes, Frame};
 use crate::gpu_interface::CULL_GROUP;
 use crate::pass::{Dispatch, Push, Recorder, Size};
 
+/// Fills the draw commands of all views, as geometry passes draw them.
+pub fn record(r: &mut Recorder, frame: &Frame) {
+    frame.eyes().for_each(|eyes| cull(r, frame, eyes));
+}
+
 /// Fills the draw commands of some views: of each by itself, and of all at once where a pass draws them so.
-pub fn record(r: &mut Recorder, frame: &Frame, eyes: Eyes) {
+fn cull(r: &mut Recorder, frame: &Frame, eyes: Eyes) {
     let Draws::Indirect { slots, .. } = &frame.draws else { return };
     r.scope(eyes.stage("cull"), |r| {
         let mut dispatch = |eyes: Eyes| {
             let view = eyes.first();
             r.dispatch(&Dispatch {
                 pipeline: frame.pipelines.cull(),
-                buffers: frame.buffers(frame.clustering_of_view(view)),
+                buffers: frame.buffers_of_view(view),
                 size: Size::threads(slots.slots.len() as u32, CULL_GROUP),
                 reads: BufferSet::EMPTY,
                 writes: set(&[B::DrawCommands, B::DrawnInstances]),

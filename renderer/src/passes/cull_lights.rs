@@ -6,51 +6,31 @@
 //! ranks, lights ──list_candidates──> candidates, light_spheres
 //! ```
 
+use super::handles::{Lights, VisibleClusters};
+use super::inputs::Frame;
 use super::scan::rank_lights;
-use crate::buffers::{BufferName as B, BufferSet, set};
-use crate::frame::Frame;
+use crate::buffers::{BufferName as B, set};
 use crate::gpu_interface::{ASSIGN_GROUP, DISPATCH_LISTS};
-use crate::layouts::Pipeline;
-use crate::pass::{Dispatch, Push, Recorder, Size};
+use crate::pass::{Dispatch, Recorder, Size};
 
 /// Drops the lights whose cells hold nothing visible.
-pub fn cull_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
+pub fn cull_lights(r: &mut Recorder, frame: &Frame, _lights: Lights, visible: VisibleClusters) {
+    let clustering = visible.clustering;
     r.scope("cull_lights", |r| {
         let pipelines = frame.pipelines.accelerated();
+        let run = |r: &mut Recorder, pipeline, size, declared| {
+            r.dispatch(&Dispatch::new(pipeline, frame.buffers(clustering), size, declared));
+        };
+        // A thread for each word of light bits.
+        let words = Size::threads(frame.light_count.div_ceil(32), ASSIGN_GROUP);
+        let (lights, blocks, bits) = (set(&[B::Lights]), set(&[B::BlockBits]), set(&[B::LightBits]));
         r.clear(&frame.clusterings[clustering].buffers[B::BlockBits]);
-        r.dispatch(&Dispatch {
-            pipeline: &pipelines.mark_blocks,
-            buffers: frame.buffers(clustering),
-            size: Size::Indirect(DISPATCH_LISTS),
-            reads: set(&[B::State, B::VisibleClusters]),
-            writes: set(&[B::BlockBits, B::Groups]),
-            depth: None,
-            push: Push::default(),
-        });
-        let lights = set(&[B::Lights]);
-        let (blocks, bits) = (set(&[B::BlockBits]), set(&[B::LightBits]));
-        per_word(r, frame, clustering, &pipelines.cull_lights, (lights | blocks, bits));
-        rank_lights(r, frame, clustering);
+        let clusters = set(&[B::State, B::VisibleClusters]);
+        let marked = blocks | set(&[B::Groups]);
+        run(r, &pipelines.mark_blocks, Size::Indirect(DISPATCH_LISTS), (clusters, marked));
+        run(r, &pipelines.cull_lights, words, (lights | blocks, bits));
+        rank_lights(r, frame, visible);
         let candidates = set(&[B::LightSpheres, B::Candidates]);
-        per_word(r, frame, clustering, &pipelines.list_candidates, (lights | bits, candidates));
-    });
-}
-
-/// Runs a pipeline with a thread for each word of light bits.
-fn per_word(
-    r: &mut Recorder,
-    frame: &Frame,
-    clustering: usize,
-    pipeline: &Pipeline,
-    (reads, writes): (BufferSet, BufferSet),
-) {
-    r.dispatch(&Dispatch {
-        pipeline,
-        buffers: frame.buffers(clustering),
-        size: Size::threads(frame.light_count.div_ceil(32), ASSIGN_GROUP),
-        reads,
-        writes,
-        depth: None,
-        push: Push::default(),
+        run(r, &pipelines.list_candidates, words, (lights | bits, candidates));
     });
 }

@@ -1,8 +1,8 @@
 //! Drawing the scene, a call a pass: what is attached, what is drawn with which pipelines, what their shaders touch.
 
+use super::inputs::{Draws, Eyes, Frame, Layer};
 use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::draw_list::{DrawRun, SurfaceKind};
-use crate::frame::{Draws, Eyes, Frame, Layer};
 use crate::gpu_interface::{DrawCommand, SET_MATERIAL};
 use crate::layouts::{BoundBuffers, Pipeline};
 use crate::pass::{Access, Declared, Push, Recorder, Use};
@@ -83,7 +83,7 @@ pub fn surfaces(r: &mut Recorder, frame: &Frame, pass: &SurfacePass) {
         return;
     }
     let attached = Attached { eyes: pass.eyes, color: pass.color, depth: pass.depth };
-    let buffers = frame.buffers(frame.clustering_of_view(pass.eyes.first()));
+    let buffers = frame.buffers_of_view(pass.eyes.first());
     let (mut reads, mut commands) = (pass.reads, None);
     if let Draws::Indirect { buffers, .. } = &frame.draws {
         reads = reads | set(&[B::DrawnInstances]);
@@ -120,7 +120,7 @@ pub struct Overlay<'a> {
 pub fn overlays(r: &mut Recorder, frame: &Frame, view: usize, overlays: &[Overlay]) {
     let attached =
         Attached { eyes: Eyes::One(view), color: Some(ColorUse::Clear([0.0; 4])), depth: DepthUse::Test };
-    let buffers = frame.buffers(frame.clustering_of_view(view));
+    let buffers = frame.buffers_of_view(view);
     for overlay in overlays {
         let declared = Declared { reads: overlay.reads, writes: BufferSet::EMPTY };
         r.prepare([overlay.pipeline], &buffers, declared, []);
@@ -237,7 +237,7 @@ fn draw(r: &Recorder, frame: &Frame, eyes: Eyes, (kind, pipelines): (SurfaceKind
     if !frame.draws_any(eyes, kind) {
         return;
     }
-    let buffers = frame.buffers(frame.clustering_of_view(eyes.first()));
+    let buffers = frame.buffers_of_view(eyes.first());
     // Views drawn at once take a draw for each way that faces turn, and leave out what is not of it.
     for mirrored in [false, true].into_iter().filter(|&way| frame.any_mirrored(eyes, way)) {
         let step = if eyes == Eyes::All { u32::from(mirrored) } else { 0 };

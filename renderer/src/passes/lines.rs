@@ -5,18 +5,6 @@ use crate::buffers::BufferSet;
 use crate::pipelines::DebugPipelines;
 use crate::vk::Buffer;
 
-/// A line in world space, as the vertex shader reads it.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct Line {
-    /// One end, metres.
-    pub from: [f32; 3],
-    /// The other end, metres.
-    pub to: [f32; 3],
-    /// Linear colour.
-    pub tint: [f32; 3],
-}
-
 /// Vertices of a line: two triangles.
 const VERTICES: u32 = 6;
 

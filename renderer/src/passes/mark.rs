@@ -2,16 +2,18 @@
 //! fragments are visited once more, when clusters are ranked, to count those of each visible cluster.
 
 use super::draws::{self, DepthUse, SurfacePass, SurfacePipelines};
+use super::handles::Depth;
+use super::inputs::{Eyes, Frame};
 use crate::assign::Marking;
 use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::draw_list::SurfaceKind;
-use crate::frame::{Eyes, Frame};
 use crate::pass::{Dispatch, Push, Recorder, Size};
 use crate::pipelines::MarkPipelines;
 
-/// Marks the clusters of one view's fragments: opaque and masked ones from the depth buffer or from their
-/// geometry, transparent ones always from their geometry.
-pub fn record(r: &mut Recorder, frame: &Frame, clustering: usize, view: usize) {
+/// Marks the clusters of one view's fragments, whose `depth` is there: opaque and masked ones from the depth buffer or from
+/// their geometry, transparent ones always from their geometry.
+pub fn record(r: &mut Recorder, frame: &Frame, (clustering, view): (usize, usize), depth: Depth) {
+    debug_assert!(depth.covers(frame, Eyes::One(view)));
     r.scope(("mark", view), |r| {
         let this = &frame.clusterings[clustering];
         if view == this.views.start {

@@ -1,5 +1,6 @@
 //! The passes of a frame, one file a pass (or family of passes that share a shader), in the order of
-//! [`crate::frame`]; `clay`, `pixel_clusters`, `lines` and `spheres` belong to stills alone.
+//! [`crate::frame`]; `clay`, `pixel_clusters`, `lines` and `spheres` belong to stills alone. What they record from is
+//! [`Frame`]; what they hand on are handles, such as [`Depth`] and [`LightLists`].
 
 pub mod assign;
 pub mod clay;
@@ -7,9 +8,12 @@ pub mod cull;
 pub mod cull_lights;
 pub mod depth;
 pub mod draws;
+mod handles;
 pub mod hierarchy;
+mod inputs;
 pub mod lights;
 pub mod lines;
+pub mod list_clusters;
 pub mod mark;
 pub mod pixel_clusters;
 pub mod pixel_maps;
@@ -18,3 +22,6 @@ pub mod resolve;
 pub mod scan;
 pub mod shade;
 pub mod spheres;
+
+pub use handles::{Color, Depth, LightLists, Lights, VisibleClusters};
+pub use inputs::{DrawBuffers, Draws, Eyes, Frame, Layer, ViewTargets};

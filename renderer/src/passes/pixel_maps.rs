@@ -1,13 +1,14 @@
 //! What is known of each pixel of a view, for images; atemporal runs alone.
 
+use super::inputs::Frame;
 use crate::buffers::{BufferName as B, BufferSet, set};
-use crate::frame::Frame;
 use crate::gpu_interface::PixelData;
+use crate::layouts::Pipeline;
 use crate::pass::{BufferCopy, Dispatch, Push, Recorder, Size};
 use crate::vk::Buffer;
 
 /// What tells the list of a pixel's cluster, and its fragments.
-pub const LOOKED_UP: BufferSet = set(&[B::ClusterBits, B::WordRanks, B::ListOffsets, B::VisibleFragments]);
+const LOOKED_UP: BufferSet = set(&[B::ClusterBits, B::WordRanks, B::ListOffsets, B::VisibleFragments]);
 
 /// Bytes of a view's colour (half RGBA) and, behind it, of its [`PixelData`].
 pub fn view_bytes([width, height]: [u32; 2]) -> [u64; 2] {
@@ -17,21 +18,30 @@ pub fn view_bytes([width, height]: [u32; 2]) -> [u64; 2] {
 
 /// Copies one view's colour and pixel data to `target`, which holds [`view_bytes`].
 pub fn record(r: &mut Recorder, frame: &Frame, view: usize, target: &Buffer) {
-    let [offset, size] = view_bytes(frame.resolution);
-    let clustering = frame.clustering_of_view(view);
-    r.dispatch(&Dispatch {
-        pipeline: &frame.pipelines.pixel_maps,
-        buffers: frame.buffers(clustering),
-        size: Size::pixels(frame.resolution),
-        reads: LOOKED_UP,
-        writes: set(&[B::Pixels]),
-        depth: Some(frame.targets[view].depth_image()),
-        push: Push::view(view),
-    });
-    let from = &frame.clusterings[clustering].buffers[B::Pixels];
-    r.copy(&BufferCopy { from, to: target, offset, size });
+    let [offset, _] = view_bytes(frame.resolution);
+    let clustering = frame.sharing.clustering_of(view);
+    look_up(r, frame, &frame.pipelines.pixel_maps, (view, clustering), (target, offset));
     copy_color(r, frame, view, target);
     r.hand_over(target);
+}
+
+/// Looks the pixels of a view's prepass up in a clustering, and copies what is known of them behind `offset` bytes of the
+/// target.
+pub(super) fn look_up(
+    r: &mut Recorder,
+    frame: &Frame,
+    pipeline: &Pipeline,
+    (view, clustering): (usize, usize),
+    (to, offset): (&Buffer, u64),
+) {
+    let declared = (LOOKED_UP, set(&[B::Pixels]));
+    let dispatch =
+        Dispatch::new(pipeline, frame.buffers(clustering), Size::pixels(frame.resolution), declared);
+    let depth = Some(frame.targets[view].depth_image());
+    r.dispatch(&Dispatch { depth, push: Push::view(view), ..dispatch });
+    let from = &frame.clusterings[clustering].buffers[B::Pixels];
+    let [_, size] = view_bytes(frame.resolution);
+    r.copy(&BufferCopy { from, to, offset, size });
 }
 
 /// Copies a view's colour, one sample a pixel, to the start of `target`.

@@ -1,7 +1,7 @@
 //! What goes back to the host: each frame's few words of state, and in atemporal runs everything counted.
 
+use super::inputs::Frame;
 use crate::buffers::BufferName as B;
-use crate::frame::Frame;
 use crate::gpu_interface::{COUNTER_COUNT, ClusteringState};
 use crate::pass::{BufferCopy, Recorder};
 use crate::vk::Buffer;

@@ -1,10 +1,11 @@
 //! Stage `resolve`: the samples of every pixel averaged, with MSAA alone.
 
-use crate::frame::{Frame, ViewTargets};
+use super::handles::Color;
+use super::inputs::{Frame, ViewTargets};
 use crate::pass::Recorder;
 
 /// Resolves every view's colour.
-pub fn record(r: &mut Recorder, frame: &Frame) {
+pub fn record(r: &mut Recorder, frame: &Frame, _color: Color) {
     if frame.targets.iter().all(|target| target.resolved.is_none()) {
         return;
     }

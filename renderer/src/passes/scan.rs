@@ -6,12 +6,12 @@
 //! items ──single──> total, exclusive prefix per item                           where there are few
 //! ```
 
+use super::handles::VisibleClusters;
+use super::inputs::Frame;
 use crate::buffers::{BufferName as B, BufferSet, set};
-use crate::frame::Frame;
 use crate::gpu_interface::{
     ASSIGN_GROUP, DISPATCH_SCAN, DISPATCH_SORT_SCAN, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS,
 };
-use crate::layouts::Pipeline;
 use crate::pass::{Dispatch, Push, Recorder, Size};
 use crate::pipelines::ScanPipelines;
 
@@ -37,7 +37,7 @@ struct Scan<'a> {
 }
 
 /// Ranks the visibility words and lists the visible clusters by ascending index.
-pub fn compact(r: &mut Recorder, frame: &Frame, clustering: usize) {
+pub fn compact(r: &mut Recorder, frame: &Frame, clustering: usize) -> VisibleClusters {
     r.scope("compact", |r| {
         let scan = Scan {
             pipelines: &frame.pipelines.clustered().compact,
@@ -51,10 +51,12 @@ pub fn compact(r: &mut Recorder, frame: &Frame, clustering: usize) {
         };
         record(r, frame, clustering, &scan);
     });
+    VisibleClusters { clustering }
 }
 
 /// Offsets of the lists from their lengths.
-pub fn light_offsets(r: &mut Recorder, frame: &Frame, clustering: usize) {
+pub fn light_offsets(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
+    let clustering = visible.clustering;
     r.scope("light_offsets", |r| {
         let scan = Scan {
             pipelines: &frame.pipelines.clustered().light_offsets,
@@ -71,7 +73,8 @@ pub fn light_offsets(r: &mut Recorder, frame: &Frame, clustering: usize) {
 }
 
 /// Ranks the words of light bits.
-pub(super) fn rank_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
+pub(super) fn rank_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
+    let clustering = visible.clustering;
     let scan = Scan {
         pipelines: &frame.pipelines.accelerated().rank_lights,
         items: frame.light_count.div_ceil(32),
@@ -86,7 +89,8 @@ pub(super) fn rank_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
 }
 
 /// Gives groups of visible clusters the tiles that their lights fill.
-pub(super) fn group_tiles(r: &mut Recorder, frame: &Frame, clustering: usize) {
+pub(super) fn group_tiles(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
+    let clustering = visible.clustering;
     let scan = Scan {
         pipelines: &frame.pipelines.accelerated().group_tiles,
         items: frame.clusterings[clustering].visible_capacity.div_ceil(ASSIGN_GROUP),
@@ -101,7 +105,8 @@ pub(super) fn group_tiles(r: &mut Recorder, frame: &Frame, clustering: usize) {
 }
 
 /// Where each digit of each block of the sort goes, in pass `step`.
-pub(super) fn digit_offsets(r: &mut Recorder, frame: &Frame, clustering: usize, step: u32) {
+pub(super) fn digit_offsets(r: &mut Recorder, frame: &Frame, visible: VisibleClusters, step: u32) {
+    let clustering = visible.clustering;
     let scan = Scan {
         pipelines: &frame.pipelines.accelerated().digit_offsets,
         items: frame.light_count.div_ceil(SORT_BLOCK) * SORT_DIGITS,
@@ -116,37 +121,21 @@ pub(super) fn digit_offsets(r: &mut Recorder, frame: &Frame, clustering: usize, 
 }
 
 fn record(r: &mut Recorder, frame: &Frame, clustering: usize, scan: &Scan) {
-    let Scan { pipelines, length, summed, emits, publishes, .. } = *scan;
+    let Scan { pipelines, length, summed, emits, publishes, push, .. } = *scan;
     let blocks = scan.items.div_ceil(SCAN_BLOCK);
     let items = length | summed;
+    let mut run = |pipeline, size, reads: BufferSet, writes: BufferSet| {
+        // What is written need not be said to be read.
+        let declared = (reads - writes, writes);
+        r.dispatch(&Dispatch { push, ..Dispatch::new(pipeline, frame.buffers(clustering), size, declared) });
+    };
     if blocks <= MAX_SINGLE_BLOCKS {
-        one(r, frame, clustering, scan, (&pipelines.single, Size::Groups(1, 1)), (items, emits | publishes));
+        run(&pipelines.single, Size::Groups(1, 1), items, emits | publishes);
         return;
     }
     let size = scan.slot.map_or(Size::Groups(blocks, 1), Size::Indirect);
     let sums = set(&[B::BlockSums]);
-    one(r, frame, clustering, scan, (&pipelines.reduce, size), (items, sums));
-    let single = (&*pipelines.block_offsets, Size::Groups(1, 1));
-    one(r, frame, clustering, scan, single, (length, sums | publishes));
-    one(r, frame, clustering, scan, (&pipelines.apply, size), (items | sums, emits));
-}
-
-/// One dispatch of a scan; what is written need not be said to be read.
-fn one(
-    r: &mut Recorder,
-    frame: &Frame,
-    clustering: usize,
-    scan: &Scan,
-    (pipeline, size): (&Pipeline, Size),
-    (reads, writes): (BufferSet, BufferSet),
-) {
-    r.dispatch(&Dispatch {
-        pipeline,
-        buffers: frame.buffers(clustering),
-        size,
-        reads: reads - writes,
-        writes,
-        depth: None,
-        push: scan.push,
-    });
+    run(&pipelines.reduce, size, items, sums);
+    run(&pipelines.block_offsets, Size::Groups(1, 1), length, sums | publishes);
+    run(&pipelines.apply, size, items | sums, emits);
 }

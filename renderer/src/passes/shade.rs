@@ -3,16 +3,25 @@
 //! blended view by view, each in its own order.
 
 use super::draws::{self, ColorUse, DepthUse, SurfacePass, SurfacePipelines};
+use super::handles::{Color, Depth, LightLists};
+use super::inputs::{Eyes, Frame};
 use crate::buffers::{BufferName as B, set};
 use crate::draw_list::SurfaceKind;
-use crate::frame::{Eyes, Frame};
 use crate::pass::Recorder;
 
 /// What is seen where nothing was drawn: a dim night sky, linear, that covers nothing.
 pub const BACKGROUND: [f32; 4] = [0.004, 0.006, 0.012, 0.0];
 
-/// Shades some views.
-pub fn record(r: &mut Recorder, frame: &Frame, eyes: Eyes) {
+/// Shades all views, of which `depth` is laid down and for which `lists` serve.
+pub fn record(r: &mut Recorder, frame: &Frame, depth: Depth, lists: LightLists) -> Color {
+    for eyes in frame.shaded_eyes() {
+        debug_assert!(depth.covers(frame, eyes) && lists.serve(frame, eyes.first()));
+        shade(r, frame, eyes);
+    }
+    Color::shaded()
+}
+
+fn shade(r: &mut Recorder, frame: &Frame, eyes: Eyes) {
     r.scope(eyes.stage("shade"), |r| {
         r.scope("opaque", |r| surfaces(r, frame, eyes, SurfaceKind::Opaque));
         r.scope("masked", |r| surfaces(r, frame, eyes, SurfaceKind::Masked));

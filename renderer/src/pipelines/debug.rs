@@ -4,13 +4,30 @@ use super::{COLOR_FORMAT, DEPTH_FORMAT, Output, PipelineStore, Variant};
 use crate::Result;
 use crate::draw_list::SurfaceKind;
 use crate::layouts::Pipeline;
-use crate::passes::lines::Line;
-use crate::passes::spheres::{RINGS, SEGMENTS};
 use crate::texture_sets::TextureSet;
 use crate::vk::GraphicsDesc;
 use ash::vk;
 use std::mem::offset_of;
 use std::sync::Arc;
+
+/// A line in world space, as the vertex shader reads it.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Line {
+    /// One end, metres.
+    pub from: [f32; 3],
+    /// The other end, metres.
+    pub to: [f32; 3],
+    /// Linear colour.
+    pub tint: [f32; 3],
+}
+
+/// Bands between the poles of a light's sphere.
+const RINGS: u32 = 12;
+/// Slices around its axis.
+const SEGMENTS: u32 = 24;
+/// Vertices of such a sphere: two triangles a quad.
+pub const SPHERE_VERTICES: u32 = 6 * RINGS * SEGMENTS;
 
 /// All pipelines of a still.
 pub struct DebugPipelines {

@@ -1,18 +1,23 @@
 //! A variant as data: what shaders are specialised for, and the defines that follow.
 
 use super::Output;
-use crate::assign::{Assigner, Marking};
+use crate::assign::{Assigner, Clusters, Marking};
 use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
-use crate::geometry::{Candidates, SphereTest};
+use crate::geometry::{Candidates, CellShape, Sharing, SphereTest};
 use crate::lights::Attenuation;
-use crate::methods::{MethodSpec, Sharing, Space};
 
 /// What a run's shaders are specialised for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Variant {
-    /// How lights are found.
-    pub method: MethodSpec,
+    /// How shading walks the lights of a fragment: a file of this name in `lookup`.
+    pub lookup: &'static str,
+    /// What cells look like; `None` where there are none.
+    pub cells: Option<CellShape>,
+    /// How views share clusterings.
+    pub sharing: Sharing,
+    /// Which clusters get lists.
+    pub clusters: Clusters,
     /// Samples per pixel.
     pub samples: u32,
     /// Where instances are culled.
@@ -33,14 +38,15 @@ pub struct Variant {
     pub counting: bool,
 }
 
-/// Lights that shading evaluates in one turn of its loop, where a run has `lights` at most. Several cost less each, and
-/// lavapipe ends a shader's loops after 65 535 turns, in silence; but it runs a turn also where there are no lights.
-pub fn lights_at_once(method: MethodSpec, lights: u32) -> u32 {
-    match method {
-        MethodSpec::AllLights if lights < 16 => 1,
-        MethodSpec::AllLights => 16,
-        MethodSpec::Clustered { .. } if lights <= 512 => 1,
-        MethodSpec::Clustered { .. } => 4,
+/// Lights that shading evaluates in one turn of its loop, where a run has `lights` at most and lists or none. Several cost
+/// less each, and lavapipe ends a shader's loops after 65 535 turns, in silence; but it runs a turn also where there are no
+/// lights.
+pub fn lights_at_once(has_lists: bool, lights: u32) -> u32 {
+    match has_lists {
+        false if lights < 16 => 1,
+        false => 16,
+        true if lights <= 512 => 1,
+        true => 4,
     }
 }
 
@@ -53,7 +59,7 @@ impl Variant {
     /// Whether a graphics pipeline draws all views at once: the prepass, and what is shaded in any order through the one
     /// clustering that all views share.
     pub(super) fn draws_all_views(&self, output: Output) -> bool {
-        let one_clustering = !matches!(self.method, MethodSpec::Clustered { sharing: Sharing::Indi, .. });
+        let one_clustering = self.sharing == Sharing::Encl;
         self.multiview
             && match output {
                 Output::Depth => true,
@@ -64,16 +70,18 @@ impl Variant {
 
     /// The defines of every shader of this variant.
     pub(super) fn defines(&self) -> Defines {
-        let (lookup, space) = match self.method {
-            MethodSpec::AllLights => ("LOOKUP_ALL_LIGHTS", "SPACE_PERSPECTIVE"),
-            MethodSpec::Clustered { space: Space::Ortho { .. }, .. } => {
-                ("LOOKUP_CLUSTERED", "SPACE_ORTHOGRAPHIC")
-            }
-            MethodSpec::Clustered { .. } => ("LOOKUP_CLUSTERED", "SPACE_PERSPECTIVE"),
+        let space = match self.cells {
+            Some(CellShape::Frustum) | None => "SPACE_PERSPECTIVE",
+            Some(CellShape::Box) => "SPACE_ORTHOGRAPHIC",
+        };
+        let clusters = match self.clusters {
+            Clusters::Visible => "CLUSTERS_VISIBLE",
+            Clusters::All => "CLUSTERS_ALL",
         };
         Defines(vec![])
-            .with("LOOKUP", lookup)
+            .with("LOOKUP", self.lookup)
             .with("SPACE", space)
+            .with("CLUSTERS", clusters)
             .with("SAMPLES", self.samples)
             .with("PER_SAMPLE", u32::from(self.per_sample()))
             .with("COUNTERS", u32::from(self.counting))
@@ -91,7 +99,7 @@ impl Variant {
 
     /// Those of shaders that ask what a sphere meets besides.
     pub(super) fn test_defines(&self) -> Defines {
-        let boxes = matches!(self.method, MethodSpec::Clustered { space: Space::Ortho { .. }, .. });
+        let boxes = self.cells == Some(CellShape::Box);
         let nearest = matches!(self.test, SphereTest::Exact | SphereTest::Box);
         // Planes are cheaper than the nearest point, but for boxes.
         let half_spaces = self.test.asks(Candidates::HALF_SPACES) || nearest && !boxes;
@@ -128,7 +136,7 @@ mod tests {
     #[test]
     fn no_loop_over_all_lights_reaches_the_turns_that_lavapipe_ends_it_after() {
         for lights in [0, 1, 15, 16, 512, 513, 65_535, 1_000_000] {
-            let at_once = lights_at_once(MethodSpec::AllLights, lights);
+            let at_once = lights_at_once(false, lights);
             assert!(at_once > 0 && lights.div_ceil(at_once) < 65_535, "{lights} lights, {at_once} at once");
         }
     }

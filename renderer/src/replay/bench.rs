@@ -5,17 +5,18 @@ mod scopes;
 
 pub use scopes::{ScopesRow, bench_scopes};
 
-use super::{Watch, temporal};
+use super::Watch;
 use crate::Result;
 use crate::assign::Assigner;
 use crate::config::{Config, FrameRange, Test};
-use crate::engine::{Counted, Engine, FramePlan, Mode, Session, plan_frames};
+use crate::engine::{
+    COUNTING_SLOT as SLOT, Counted, Engine, FramePlan, LargestGrid, Mode, Session, nothing, plan_frames,
+};
 use crate::geometry::SphereTest;
 use crate::gpu_interface::ClusteringState;
 use crate::inputs::Inputs;
-use crate::lights::{Lighting, LightsFrom, PointLight};
-use crate::measure::Capacities;
-use crate::methods::MethodSpec;
+use crate::lights::{FrameLights, Lighting, LightsFrom};
+use crate::methods::Method;
 use crate::output::makes_lists;
 use crate::passes::readback;
 use serde::Serialize;
@@ -37,7 +38,7 @@ pub struct AssignBench {
 
 impl AssignBench {
     /// What the tests are for a method, each once.
-    pub fn tests_of(&self, method: &MethodSpec) -> Vec<SphereTest> {
+    pub fn tests_of(&self, method: &Method) -> Vec<SphereTest> {
         let mut tests = vec![];
         for test in self.tests.iter().map(|test| test.of(method)) {
             if !tests.contains(&test) {
@@ -71,9 +72,6 @@ pub struct BenchRow {
     pub gpu_ms: f64,
 }
 
-/// The slot that benchmarked frames use: each is read before the next begins.
-const SLOT: usize = 0;
-
 /// Times `bench` by the config's methods, scene, recording and resolution; rows come as soon as they are measured.
 ///
 /// # Errors
@@ -90,13 +88,13 @@ pub fn bench_assign(
     for lighting in &bench.lights {
         let mut source = inputs.light_source(&LightsFrom::Rain(*lighting))?;
         for &frame in &bench.frames {
-            let lights = source.at_frame(frame).to_vec();
+            let lights = source.at_frame(frame);
             let range = FrameRange { first: frame, end: Some(frame + 1), step: 1 };
-            let config = Config { frames: range, ..config.clone() };
             for &method in &config.methods {
-                let plan = &plan_frames(&config, &inputs.recording, &method)?[0];
-                let case = Case { config: &config, method, plan, lights: &lights, shaded: false };
-                for row in case.measure(&mut session, bench, watch)? {
+                let run = Config { frames: range, methods: vec![method], ..config.clone() };
+                let plan = &plan_frames(&run, &inputs.recording)?[0];
+                let timed = TimedFrame { run: &run, plan, lights, shaded: false };
+                for row in timed.measure(&mut session, bench, watch)? {
                     sink(row)?;
                 }
             }
@@ -105,24 +103,27 @@ pub fn bench_assign(
     session.context.check_validation()
 }
 
-/// One frame by one method.
-struct Case<'a> {
-    config: &'a Config,
-    method: MethodSpec,
+/// One frame of a run, timed again and again.
+#[derive(Clone, Copy)]
+struct TimedFrame<'a> {
+    /// Has one value on every axis; benchmarks of assignment put their own tests there.
+    run: &'a Config,
     plan: &'a FramePlan,
-    lights: &'a [PointLight],
+    lights: FrameLights<'a>,
     /// Whether the frame goes on to shading.
     shaded: bool,
 }
 
-impl Case<'_> {
+impl TimedFrame<'_> {
     fn measure(&self, session: &mut Session, bench: &AssignBench, watch: &Watch) -> Result<Vec<BenchRow>> {
         let mut rows = vec![];
         let mut engines = vec![];
-        for test in bench.tests_of(&self.method) {
+        for test in bench.tests_of(&self.run.methods[0]) {
+            let run = &Config { test: vec![Test::Named(test)], ..self.run.clone() };
+            let tested = TimedFrame { run, ..*self };
             for &assigner in &bench.assigners {
-                rows.push(self.count(session, (assigner, test))?);
-                engines.push(self.engine(session, (assigner, test), false)?);
+                rows.push(tested.count(session, (assigner, test))?);
+                engines.push(tested.engine(session, assigner, false)?);
             }
         }
         for _ in 0..=bench.repeats {
@@ -136,47 +137,36 @@ impl Case<'_> {
         Ok(rows)
     }
 
-    fn engine(
-        &self,
-        session: &mut Session,
-        (assigner, test): (Assigner, SphereTest),
-        counting: bool,
-    ) -> Result<Engine> {
-        let capacities = Capacities {
-            visible_clusters: self.config.visible_cluster_capacity,
-            light_indices: self.config.light_index_capacity,
-        };
-        let mode = Mode { lights: self.lights.len() as u32, capacities, assigner, test, counting };
+    /// An engine that has rendered the frame once.
+    fn engine(&self, session: &mut Session, assigner: Assigner, counting: bool) -> Result<Engine> {
+        let lights = self.lights.list.len() as u32;
+        let mode = Mode { assigner, counting, ..Mode::counting(self.run, lights) };
         let mut engine =
-            Engine::new(session, self.config, self.method, std::slice::from_ref(self.plan), mode)?;
+            Engine::new(session, self.run, LargestGrid::of(std::slice::from_ref(self.plan)), mode)?;
         engine.shaded = self.shaded;
-        loop {
-            self.render(session, &mut engine)?;
-            if !engine.grow_if_needed(session, SLOT, self.plan.frame)? {
-                return Ok(engine);
-            }
-        }
+        self.render(session, &mut engine)?;
+        Ok(engine)
     }
 
     fn render(&self, session: &mut Session, engine: &mut Engine) -> Result<()> {
-        let extend = (&mut readback::clear_counters as _, &mut temporal::nothing as _);
-        engine.submit(session, SLOT, self.plan, self.lights, extend)?;
-        session.slots[SLOT].wait()
+        let extend = (&mut readback::clear_counters as _, &mut nothing as _);
+        engine.render(session, SLOT, (self.plan, self.lights), extend)
     }
 
     fn count(&self, session: &mut Session, (assigner, test): (Assigner, SphereTest)) -> Result<BenchRow> {
-        let mut engine = self.engine(session, (assigner, test), true)?;
+        let mut engine = self.engine(session, assigner, true)?;
+        let lights = self.lights.list.len() as u32;
         let states = engine.states(session, SLOT);
         let mut intersection_tests = 0;
         for (clustering, state) in states.iter().enumerate() {
             let at = (SLOT, self.plan.frame, clustering);
-            let read = Counted::read(&mut engine, session, at, (*state, self.lights.len() as u32))?;
+            let read = Counted::read(&mut engine, session, at, (*state, lights))?;
             intersection_tests += read.counters.intersection_tests;
         }
         let sum = |count: fn(&ClusteringState) -> u32| states.iter().map(|s| u64::from(count(s))).sum();
         Ok(BenchRow {
-            lights: self.lights.len() as u32,
-            method: self.method.to_string(),
+            lights,
+            method: self.run.methods[0].to_string(),
             assign: assigner.to_string(),
             test: test.to_string(),
             frame: self.plan.frame,

@@ -5,7 +5,6 @@
 //!                          └─> plan (views, grids) ────────────────┴─> temporal: stage times
 //! ```
 
-pub(crate) mod atemporal;
 pub mod bench;
 mod choose;
 mod player;
@@ -18,12 +17,11 @@ pub use shape::shape_note;
 
 use crate::assign::Assigner;
 use crate::config::Config;
-use crate::engine::{Engine, FramePlan, Mode, Session, plan_frames};
+use crate::engine::{Engine, FramePlan, LargestGrid, Mode, Session, count_frame, nothing, plan_frames};
 use crate::inputs::Inputs;
 use crate::measure::{
     Capacities, ClusterLists, FrameCounts, FrameTimes, FrameTrace, GrowthEvent, ViewPixels,
 };
-use crate::methods::MethodSpec;
 use crate::output::PlannedRun;
 use crate::recording::Recording;
 use crate::vk::DeviceInfo;
@@ -32,6 +30,9 @@ use image::RgbImage;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, SystemTime};
 use tracer::Tracer;
+
+/// The slot of the frame that warms up.
+const WARM_UP_SLOT: usize = 0;
 
 /// Takes what runs produce, as soon as it is there.
 pub trait RunSink {
@@ -120,7 +121,7 @@ pub fn replay(
     // What can be refused without a device is refused first.
     for run in runs {
         run.check()?;
-        plan_frames(config, &inputs.recording, &run.method)?;
+        plan_frames(&run.config, &inputs.recording)?;
     }
     let mut player = Player::new(config, inputs)?;
     for run in runs {
@@ -130,45 +131,51 @@ pub fn replay(
 }
 
 fn replay_run(
-    config: &Config,
     inputs: &Inputs,
     session: &mut Session,
     run: &PlannedRun,
     (watch, sink): (&Watch, &mut dyn RunSink),
 ) -> Result<RunResult> {
     let started = SystemTime::now();
-    let plans = plan_frames(config, &inputs.recording, &run.method)?;
+    let plans = plan_frames(&run.config, &inputs.recording)?;
     let mut result = RunResult {
         counts: Vec::with_capacity(plans.len()),
         times: vec![],
         traces: vec![],
-        assigner: Assigner::Brute,
-        capacities: Capacities {
-            visible_clusters: config.visible_cluster_capacity,
-            light_indices: config.light_index_capacity,
-        },
+        assigner: choose::assigner(inputs, session, (run, &plans))?,
+        capacities: run.config.capacities(),
         growth: vec![],
         device: session.context.info.clone(),
         started,
         duration: Duration::ZERO,
     };
-    result.assigner = choose::assigner(config, inputs, session, (run, &plans))?;
-    count(config, inputs, session, (run, &plans), (watch, sink), &mut result)?;
+    count(inputs, session, (run, &plans), (watch, sink), &mut result)?;
     if inputs.light_count(&run.lights)? > 0
         && result.counts.iter().all(|frame| frame.counters.needed_computations == 0)
     {
         tracing::warn!("{}: no light reaches anything that is seen, in any frame", run.name);
     }
-    if config.runs > 0 {
-        time(config, inputs, session, (run, &plans), watch, &mut result)?;
+    if run.config.runs > 0 {
+        time(inputs, session, (run, &plans), watch, &mut result)?;
     }
     result.duration = started.elapsed().unwrap_or_default();
     Ok(result)
 }
 
+/// An engine for a run as far as `result` knows what that takes.
+fn engine(
+    session: &mut Session,
+    run: &PlannedRun,
+    plans: &[FramePlan],
+    (lights, counting): (u32, bool),
+    result: &RunResult,
+) -> Result<Engine> {
+    let mode = Mode { lights, capacities: result.capacities, assigner: result.assigner, counting };
+    Engine::new(session, &run.config, LargestGrid::of(plans), mode)
+}
+
 /// The atemporal run: it comes first, so that buffers have grown before anything is timed.
 fn count(
-    config: &Config,
     inputs: &Inputs,
     session: &mut Session,
     (run, plans): (&PlannedRun, &[FramePlan]),
@@ -176,22 +183,19 @@ fn count(
     result: &mut RunResult,
 ) -> Result<()> {
     let mut lights = inputs.light_source(&run.lights)?;
-    let light_count = lights.at_frame(plans[0].frame).len() as u32;
     let names: Vec<String> = inputs.recording.view_names().into_iter().map(str::to_owned).collect();
-    let (capacities, assigner) = (result.capacities, result.assigner);
-    let test = run.test.of(&run.method);
-    let mode = Mode { lights: light_count, capacities, assigner, test, counting: true };
-    let mut engine = Engine::new(session, config, run.method, plans, mode)?;
+    let mut engine = engine(session, run, plans, (inputs.light_count(&run.lights)?, true), result)?;
     for plan in plans {
         watch.check()?;
-        let view_names = config.exr.contains(plan.frame).then_some(names.as_slice());
+        let view_names = run.config.exr.contains(plan.frame).then_some(names.as_slice());
         let about = (inputs.recording.time(plan.frame), view_names);
-        let (counts, views) = atemporal::count_frame(&mut engine, session, plan, &mut lights, about, sink)?;
-        result.counts.push(counts);
-        if !views.is_empty() {
-            sink.images(plan.frame, &views)?;
-            if run.method != MethodSpec::AllLights {
-                sink.birdseye(plan.frame, &still::birdseye(config, inputs, session, (run, plan))?)?;
+        let input = (plan, lights.at_frame(plan.frame));
+        let frame = count_frame(&mut engine, session, input, about, &mut |lists| sink.lists(lists))?;
+        result.counts.push(frame.counts);
+        if view_names.is_some() {
+            sink.images(plan.frame, &frame.pixels)?;
+            if run.method.has_lists() {
+                sink.birdseye(plan.frame, &still::birdseye(inputs, session, (run, plan))?)?;
             }
         }
         watch.step();
@@ -201,8 +205,8 @@ fn count(
     Ok(())
 }
 
+/// The temporal runs, after one frame that warms up: a pipeline's first use is dearer than the rest on some drivers.
 fn time(
-    config: &Config,
     inputs: &Inputs,
     session: &mut Session,
     (run, plans): (&PlannedRun, &[FramePlan]),
@@ -210,17 +214,14 @@ fn time(
     result: &mut RunResult,
 ) -> Result<()> {
     let mut lights = inputs.light_source(&run.lights)?;
-    let light_count = lights.at_frame(plans[0].frame).len() as u32;
-    let (capacities, assigner) = (result.capacities, result.assigner);
-    let test = run.test.of(&run.method);
-    let mode = Mode { lights: light_count, capacities, assigner, test, counting: false };
-    let mut engine = Engine::new(session, config, run.method, plans, mode)?;
-    temporal::warm_up(&mut engine, session, &plans[0], &mut lights)?;
+    let mut engine = engine(session, run, plans, (inputs.light_count(&run.lights)?, false), result)?;
+    let first = (&plans[0], lights.at_frame(plans[0].frame));
+    engine.render(session, WARM_UP_SLOT, first, (&mut nothing, &mut nothing))?;
     let frames = plans.iter().map(|plan| plan.frame);
-    let mut tracer = Tracer::new(&config.trace, frames, config.runs, engine.tree.paths().len());
-    for number in 0..config.runs {
+    let mut tracer = Tracer::new(&run.config.trace, frames, run.config.runs, engine.tree.paths().len());
+    for number in 0..run.config.runs {
         let keep = (number, &mut tracer);
-        let times = temporal::time_run(&mut engine, session, plans, &mut lights, keep, watch)?;
+        let times = temporal::time_run(&mut engine, session, plans, &mut *lights, keep, watch)?;
         result.times.extend(times);
     }
     result.traces = tracer.finish(&engine.tree, &session.context.limits);

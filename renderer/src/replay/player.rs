@@ -4,9 +4,8 @@ use super::{RunSink, Watch, replay_run};
 use crate::Result;
 use crate::assign::Assigner;
 use crate::config::Config;
-use crate::engine::{Engine, Mode, Session, plan_frames};
+use crate::engine::{Engine, LargestGrid, Mode, Session, plan_frames};
 use crate::inputs::Inputs;
-use crate::measure::Capacities;
 use crate::output::PlannedRun;
 use crate::vk::{Context, DeviceInfo, DeviceOptions};
 
@@ -21,7 +20,6 @@ pub fn device_info(config: &Config) -> Result<DeviceInfo> {
 
 /// Plays runs of one scene at one resolution.
 pub struct Player<'a> {
-    config: &'a Config,
     inputs: &'a Inputs,
     session: Session,
 }
@@ -33,7 +31,7 @@ impl<'a> Player<'a> {
     /// The device is missing, lacks something, or cannot hold the scene.
     pub fn new(config: &'a Config, inputs: &'a Inputs) -> Result<Self> {
         let session = Session::new(config, &inputs.scene, inputs.recording.view_set())?;
-        Ok(Self { config, inputs, session })
+        Ok(Self { inputs, session })
     }
 
     /// Whether the device can play a run: its shaders compile, its buffers fit.
@@ -41,18 +39,13 @@ impl<'a> Player<'a> {
     /// # Errors
     /// They do not.
     pub fn check(&mut self, run: &PlannedRun) -> Result<()> {
-        let plans = plan_frames(self.config, &self.inputs.recording, &run.method)?;
+        let plans = plan_frames(&run.config, &self.inputs.recording)?;
         let lights = self.inputs.light_count(&run.lights)?;
-        let capacities = Capacities {
-            visible_clusters: self.config.visible_cluster_capacity,
-            light_indices: self.config.light_index_capacity,
-        };
         for counting in [true, false] {
             // Where counts decide, brute force stands for all: which way it will be is not known yet.
             let assigner = run.assign.fixed().unwrap_or(Assigner::Brute);
-            let test = run.test.of(&run.method);
-            let mode = Mode { lights, capacities, assigner, test, counting };
-            Engine::check(&mut self.session, self.config, run.method, &plans, &mode)?;
+            let mode = Mode { assigner, counting, ..Mode::counting(&run.config, lights) };
+            Engine::check(&mut self.session, &run.config, LargestGrid::of(&plans), &mode)?;
         }
         Ok(())
     }
@@ -63,7 +56,7 @@ impl<'a> Player<'a> {
     /// As [`super::replay`].
     pub fn play(&mut self, run: &PlannedRun, watch: &Watch, sink: &mut dyn RunSink) -> Result<()> {
         sink.begin(run)?;
-        let result = replay_run(self.config, self.inputs, &mut self.session, run, (watch, sink))?;
+        let result = replay_run(self.inputs, &mut self.session, run, (watch, sink))?;
         self.session.context.check_validation()?;
         sink.finish(run, result)
     }

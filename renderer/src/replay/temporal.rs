@@ -5,11 +5,9 @@ use super::Watch;
 use super::tracer::Tracer;
 use crate::Result;
 use crate::clustering::SLOTS;
-use crate::engine::{Engine, FramePlan, Session};
-use crate::frame::Frame;
+use crate::engine::{Engine, FramePlan, Session, nothing};
 use crate::lights::LightSource;
 use crate::measure::{FrameTimes, StageTime};
-use crate::pass::Recorder;
 
 /// (GPU, CPU) milliseconds of every stage of every frame, in rendering order.
 #[derive(Default)]
@@ -23,7 +21,7 @@ pub fn time_run(
     engine: &mut Engine,
     session: &mut Session,
     plans: &[FramePlan],
-    lights: &mut LightSource,
+    lights: &mut dyn LightSource,
     (run, tracer): (u32, &mut Tracer),
     watch: &Watch,
 ) -> Result<Vec<FrameTimes>> {
@@ -47,33 +45,14 @@ pub fn time_run(
         }
         watch.check()?;
         let plan = &plans[next];
-        engine.submit(session, slot, plan, lights.at_frame(plan.frame), (&mut nothing, &mut nothing))?;
+        let input = (plan, lights.at_frame(plan.frame));
+        engine.submit(session, slot, input, (&mut nothing, &mut nothing))?;
         in_flight[slot] = Some(next);
         next += 1;
         watch.step();
     }
     Ok(samples.into_frames(engine, run))
 }
-
-/// Renders one frame untimed: a pipeline's first use is dearer than the rest on some drivers.
-pub fn warm_up(
-    engine: &mut Engine,
-    session: &mut Session,
-    plan: &FramePlan,
-    lights: &mut LightSource,
-) -> Result<()> {
-    loop {
-        let lights = lights.at_frame(plan.frame);
-        engine.submit(session, 0, plan, lights, (&mut nothing, &mut nothing))?;
-        session.slots[0].wait()?;
-        if !engine.grow_if_needed(session, 0, plan.frame)? {
-            return Ok(());
-        }
-    }
-}
-
-/// Extends a frame by nothing.
-pub fn nothing(_: &mut Recorder, _: &Frame) {}
 
 /// Waits for the frame in `slot` and keeps its times; true where it did not fit and must be rendered again.
 fn collect(

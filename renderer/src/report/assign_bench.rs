@@ -5,7 +5,7 @@ use super::chart::{Chart, Key, Look, Plot, Series};
 use super::results::method_name;
 use super::stats::slope;
 use crate::Result;
-use crate::methods::{MethodSpec, Sharing, Space};
+use crate::methods::Method;
 use crate::output::write_whole;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ pub struct Sample {
     /// How many lights.
     pub lights: u32,
     /// The method.
-    pub method: MethodSpec,
+    pub method: Method,
     /// How lists were built: the way of assignment and the test.
     pub way: String,
     /// Frame of the recording.
@@ -91,7 +91,9 @@ impl Over {
         let frame = format!("Frame {}", sample.frame);
         match self {
             Self::Lights => [method_name(sample.method, true), frame],
-            Self::Clusters => [kind(sample.method), format!("{frame}, {} lights", sample.lights)],
+            Self::Clusters => {
+                [sample.method.kind().title.to_owned(), format!("{frame}, {} lights", sample.lights)]
+            }
         }
     }
 
@@ -101,18 +103,6 @@ impl Over {
             Self::Clusters => sample.visible_clusters as f64,
         }
     }
-}
-
-/// A method without its sizes: methods of one kind are compared over their numbers of clusters.
-fn kind(method: MethodSpec) -> String {
-    let MethodSpec::Clustered { sharing, space } = method else { return "All lights".into() };
-    let sharing = if sharing == Sharing::Indi { "Indi" } else { "Encl" };
-    let space = match space {
-        Space::Persp { .. } => "Persp",
-        Space::Ortho { .. } => "Ortho",
-        Space::Displ { .. } => "Displ",
-    };
-    format!("{sharing} {space}")
 }
 
 /// Each once, in the order in which they come.

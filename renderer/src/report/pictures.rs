@@ -1,7 +1,7 @@
 //! Rendered frames, and galleries of frames with the light counts of every method.
 
 use super::figure::Figure;
-use crate::methods::{MethodSpec, Sharing};
+use crate::methods::{Method, Sharing};
 use crate::report::chart::{Chart, Picture as Shown, Plot};
 use crate::report::data_uri;
 use crate::report::results::{
@@ -103,10 +103,10 @@ fn gallery(runs: &[&Run], lighting: &LightingName, frames: &[u32]) -> Result<Cha
 }
 
 /// Persp, Ortho, Displ; Indi before Encl.
-pub fn order(method: MethodSpec) -> (usize, bool) {
-    let MethodSpec::Clustered { sharing, space } = method else { return (usize::MAX, false) };
-    let place = crate::report::results::TUNED.iter().position(|&tuned| tuned == space).unwrap_or(usize::MAX);
-    (place, sharing == Sharing::Encl)
+pub fn order(method: Method) -> (usize, bool) {
+    let Method::Grid(grid) = method else { return (usize::MAX, false) };
+    let place = crate::report::results::TUNED.iter().position(|&tuned| tuned == grid.space);
+    (place.unwrap_or(usize::MAX), grid.sharing == Sharing::Encl)
 }
 
 /// The frame under a lighting, by whichever method rendered it: all methods give the same image.

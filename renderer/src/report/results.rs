@@ -1,7 +1,7 @@
 //! What result directories hold, as types that figures and claims ask.
 
 use super::way::Way;
-use crate::methods::{MethodSpec, Sharing, Space};
+use crate::methods::{Method, Sharing, Space};
 use crate::output::{FrameRow, Older};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -83,7 +83,7 @@ pub struct Run {
     /// What it shares with others.
     pub setting: Setting,
     /// How lights were found.
-    pub method: MethodSpec,
+    pub method: Method,
     /// Where they came from.
     pub lighting: LightingName,
     /// Device, driver and Vulkan version.
@@ -176,7 +176,7 @@ impl ResultSet {
     }
 
     /// A method's runs in a setting, by lighting.
-    pub fn of_method<'a>(&'a self, setting: &'a Setting, method: MethodSpec) -> Vec<&'a Run> {
+    pub fn of_method<'a>(&'a self, setting: &'a Setting, method: Method) -> Vec<&'a Run> {
         self.of(setting).filter(|run| run.method == method).collect()
     }
 }
@@ -261,18 +261,12 @@ impl Frames {
 }
 
 /// A method as figures name it: `Indi Persp 64`, without `Indi` where `sharing` is not told.
-pub fn method_name(method: MethodSpec, with_sharing: bool) -> String {
-    let MethodSpec::Clustered { sharing, space } = method else { return "All lights".into() };
-    let space = match space {
-        Space::Persp { pixels } => format!("Persp {pixels}"),
-        Space::Ortho { metres } => format!("Ortho {metres}"),
-        Space::Displ { pixels, displacement } => format!("Displ {pixels} {displacement}"),
-    };
-    match (with_sharing, sharing) {
-        (false, _) => space,
-        (true, Sharing::Indi) => format!("Indi {space}"),
-        (true, Sharing::Encl) => format!("Encl {space}"),
-    }
+pub fn method_name(method: Method, with_sharing: bool) -> String {
+    let title = method.kind().title;
+    let short = title.strip_prefix("Indi ").or(title.strip_prefix("Encl "));
+    let title = if with_sharing { title } else { short.unwrap_or(title) };
+    let sizes = method.sizes().into_iter().map(|size| format!(" {size}"));
+    [title.to_owned()].into_iter().chain(sizes).collect()
 }
 
 /// The sizes that Gelderen chapter 6 finds best.
@@ -283,18 +277,18 @@ pub const TUNED: [Space; 3] = [
 ];
 
 /// Whether a method has one of the tuned sizes.
-pub fn is_tuned(method: MethodSpec) -> bool {
-    matches!(method, MethodSpec::Clustered { space, .. } if TUNED.contains(&space))
+pub fn is_tuned(method: Method) -> bool {
+    matches!(method, Method::Grid(grid) if TUNED.contains(&grid.space))
 }
 
 /// The method of one clustering a view.
-pub const fn indi(space: Space) -> MethodSpec {
-    MethodSpec::Clustered { sharing: Sharing::Indi, space }
+pub const fn indi(space: Space) -> Method {
+    Method::grid(Sharing::Indi, space)
 }
 
 /// The method of one clustering for all views.
-pub const fn encl(space: Space) -> MethodSpec {
-    MethodSpec::Clustered { sharing: Sharing::Encl, space }
+pub const fn encl(space: Space) -> Method {
+    Method::grid(Sharing::Encl, space)
 }
 
 #[cfg(test)]

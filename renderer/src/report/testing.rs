@@ -1,7 +1,7 @@
 //! Runs made up for tests.
 
 use super::results::{Distribution, Frames, LightingName, ResultSet, Run, Setting, metric};
-use crate::methods::MethodSpec;
+use crate::methods::Method;
 use std::collections::BTreeMap;
 
 /// Frames of every made-up run: two of them look at far geometry.
@@ -34,7 +34,7 @@ pub fn run(method: &str, views: u32, lights: u32, value: impl Fn(&str, u32) -> O
         metric::SHADE,
     ];
     let cells = |name: &str| FRAMES.map(|frame| value(name, frame)).to_vec();
-    let method: MethodSpec = method.parse().unwrap();
+    let method: Method = method.parse().unwrap();
     Run {
         name: format!("{method}_{lights}"),
         setting: setting(views),

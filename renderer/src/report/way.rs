@@ -2,7 +2,7 @@
 //! assignment and the test of light against cluster.
 
 use crate::config::{Axis, Config, Role};
-use crate::methods::MethodSpec;
+use crate::methods::Method;
 use std::fmt;
 
 /// Results of different ways are never drawn or judged together. The thesis's own, which is the default, comes first.
@@ -17,7 +17,7 @@ fn axes() -> impl Iterator<Item = &'static Axis> {
 }
 
 /// A value as runs of `method` have it: a test by its name, not as `auto`.
-fn value(axis: &Axis, config: &Config, method: MethodSpec) -> String {
+fn value(axis: &Axis, config: &Config, method: Method) -> String {
     let of_method = Config { methods: vec![method], ..config.clone() };
     let mut labels: Vec<String> = of_method.cases().iter().map(|run| axis.label(run, config)).collect();
     labels.dedup();
@@ -25,26 +25,26 @@ fn value(axis: &Axis, config: &Config, method: MethodSpec) -> String {
 }
 
 /// What the thesis does.
-fn own(axis: &Axis, method: MethodSpec) -> String {
+fn own(axis: &Axis, method: Method) -> String {
     value(axis, &Config::default(), method)
 }
 
 impl Way {
     /// The way of a run of `method`.
-    pub fn new(config: &Config, method: MethodSpec) -> Self {
+    pub fn new(config: &Config, method: Method) -> Self {
         let differing = |axis| Some(value(axis, config, method)).filter(|value| *value != own(axis, method));
         Self { values: axes().map(differing).collect() }
     }
 
     /// The value on the axis of a name where the clusters are those of `method`.
-    pub fn value(&self, name: &str, method: MethodSpec) -> String {
+    pub fn value(&self, name: &str, method: Method) -> String {
         let found = axes().zip(&self.values).find(|(axis, _)| axis.name == name);
         found.map_or_else(String::new, |(axis, value)| value.clone().unwrap_or_else(|| own(axis, method)))
     }
 
     /// A way by the names of its first two axes.
     #[cfg(test)]
-    pub fn named(assign: &str, test: &str, method: MethodSpec) -> Self {
+    pub fn named(assign: &str, test: &str, method: Method) -> Self {
         let (assign, test) = (vec![assign.parse().unwrap()], vec![test.parse().unwrap()]);
         Self::new(&Config { assign, test, ..Config::default() }, method)
     }

@@ -17,15 +17,13 @@ mod shapes;
 
 pub use camera::{Placed, Viewpoint};
 
-use crate::assign::Assigner;
 use crate::config::Config;
 use crate::culling::Culling;
-use crate::engine::{Engine, FramePlan, Mode, Session, plan_frames};
+use crate::engine::{Engine, FramePlan, LargestGrid, Mode, Session, count_frame, plan_frames};
 use crate::inputs::Inputs;
-use crate::measure::{Capacities, FrameCounts, ViewPixels};
-use crate::methods::MethodSpec;
+use crate::measure::{FrameCounts, ViewPixels};
+use crate::methods::Method;
 use crate::output::PlannedRun;
-use crate::replay::{RunResult, RunSink, atemporal};
 use crate::{Error, Result};
 use camera::Camera;
 use clap::ValueEnum;
@@ -112,8 +110,8 @@ impl Show {
     }
 
     /// Refuses what a method without clusters cannot show.
-    fn check(&self, method: &MethodSpec) -> Result<()> {
-        if *method == MethodSpec::AllLights && (self.base != Base::Picture || self.missing) {
+    fn check(&self, method: &Method) -> Result<()> {
+        if !method.has_lists() && (self.base != Base::Picture || self.missing) {
             return Err(Error::input(format!(
                 "show: {method} has no clusters: choose a clustered method, or show frusta and lights alone"
             )));
@@ -134,26 +132,20 @@ pub struct Still {
     pub counts: FrameCounts,
 }
 
-/// Renders the first frame of `config` by `run` and looks at it from `viewpoint`.
+/// Renders the first frame of `run` and looks at it from `viewpoint`.
 ///
 /// # Errors
 /// Bad input, a camera that is not known, something that the method cannot show, and whatever fails on the device.
-pub fn render(
-    config: &Config,
-    inputs: &Inputs,
-    run: &PlannedRun,
-    viewpoint: Viewpoint,
-    show: &Show,
-) -> Result<Still> {
+pub fn render(inputs: &Inputs, run: &PlannedRun, viewpoint: Viewpoint, show: &Show) -> Result<Still> {
     show.check(&run.method)?;
-    let config = &drawn_plainly(config);
-    let plans = plan_frames(config, &inputs.recording, &run.method)?;
+    let config = &drawn_plainly(&run.config);
+    let plans = plan_frames(config, &inputs.recording)?;
     let plan = &plans[0];
     let names = inputs.recording.view_names();
     let camera = Camera::new(viewpoint, &names)?;
     let mut session = Session::new(config, &inputs.scene, inputs.recording.view_set())?;
     let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
-    let onlooker = Onlooker { config, names: &names, plan, camera, show: *show };
+    let onlooker = Onlooker { run: config, names: &names, plan, camera, show: *show };
     let still = paint(&onlooker, inputs, &mut session, run)?;
     session.context.check_validation()?;
     let log = session.context.validation_log();
@@ -174,56 +166,28 @@ fn drawn_plainly(config: &Config) -> Config {
 /// # Errors
 /// Whatever fails on the device.
 pub(crate) fn birdseye(
-    config: &Config,
     inputs: &Inputs,
     session: &mut Session,
     (run, plan): (&PlannedRun, &FramePlan),
 ) -> Result<RgbImage> {
-    let config = &drawn_plainly(config);
+    let config = &drawn_plainly(&run.config);
     let names: Vec<String> = inputs.recording.view_names().into_iter().map(str::to_owned).collect();
     let onlooker = Onlooker::birdseye(config, &names, plan);
     Ok(paint(&onlooker, inputs, session, run)?.image)
 }
 
 fn paint(onlooker: &Onlooker, inputs: &Inputs, session: &mut Session, run: &PlannedRun) -> Result<Still> {
-    let Onlooker { config, names, plan, .. } = *onlooker;
-    let mut lights = inputs.light_source(&run.lights)?;
-    let light_count = lights.at_frame(plan.frame).len() as u32;
-    let capacities = Capacities {
-        visible_clusters: config.visible_cluster_capacity,
-        light_indices: config.light_index_capacity,
-    };
+    let Onlooker { run: config, names, plan, .. } = *onlooker;
+    let mut source = inputs.light_source(&run.lights)?;
+    let lights = source.at_frame(plan.frame);
     // The picture is of the lists, which are the same however they are built.
-    let mode = Mode {
-        lights: light_count,
-        capacities,
-        assigner: Assigner::Brute,
-        test: run.test.of(&run.method),
-        counting: true,
-    };
-    let mut engine = Engine::new(session, config, run.method, std::slice::from_ref(plan), mode)?;
+    let mode = Mode::counting(config, lights.list.len() as u32);
+    let mut engine = Engine::new(session, config, LargestGrid::of(std::slice::from_ref(plan)), mode)?;
     let about = (inputs.recording.time(plan.frame), Some(names));
-    let (counts, views) =
-        atemporal::count_frame(&mut engine, session, plan, &mut lights, about, &mut NoLists)?;
-    let Seen { image, pixels } = onlooker.look(session, &mut engine, &mode, views)?;
-    Ok(Still { view: pixels.name.clone(), image, pixels, counts })
-}
-
-/// A still has no use for the lists.
-struct NoLists;
-
-impl RunSink for NoLists {
-    fn begin(&mut self, _: &PlannedRun) -> Result<()> {
-        Ok(())
-    }
-
-    fn images(&mut self, _: u32, _: &[ViewPixels]) -> Result<()> {
-        Ok(())
-    }
-
-    fn finish(&mut self, _: &PlannedRun, _: RunResult) -> Result<()> {
-        Ok(())
-    }
+    let mut no_lists = |_| Ok(());
+    let frame = count_frame(&mut engine, session, (plan, lights), about, &mut no_lists)?;
+    let Seen { image, pixels } = onlooker.look(session, &mut engine, &mode, frame.pixels)?;
+    Ok(Still { view: pixels.name.clone(), image, pixels, counts: frame.counts })
 }
 
 #[cfg(test)]
@@ -235,9 +199,7 @@ mod tests {
         let show = Show::from_items(&[Item::Clusters, Item::Frusta, Item::Missing]).unwrap();
         assert_eq!(show, Show { base: Base::Clusters, frusta: true, lights: false, missing: true });
         assert!(Show::from_items(&[Item::Clusters, Item::LightCount]).is_err());
-        assert!(show.check(&MethodSpec::AllLights).is_err());
-        assert!(
-            Show::from_items(&[Item::Frusta, Item::Lights]).unwrap().check(&MethodSpec::AllLights).is_ok()
-        );
+        assert!(show.check(&Method::AllLights).is_err());
+        assert!(Show::from_items(&[Item::Frusta, Item::Lights]).unwrap().check(&Method::AllLights).is_ok());
     }
 }

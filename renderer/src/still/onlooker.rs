@@ -6,16 +6,14 @@ use super::record::{self, Drawing, Outputs};
 use super::{Base, Show, shapes};
 use crate::clustering::view_data;
 use crate::config::Config;
-use crate::engine::{Engine, FramePlan, Mode, Session};
+use crate::engine::{COUNTING_SLOT as SLOT, Engine, FramePlan, Mode, Session};
 use crate::geometry::Grid;
 use crate::geometry::views::View;
 use crate::gpu_interface::PixelData;
 use crate::gpu_scene::GpuScene;
 use crate::measure::ViewPixels;
-use crate::passes::lines::Line;
 use crate::passes::pixel_maps;
-use crate::pipelines::DebugPipelines;
-use crate::replay::atemporal::SLOT;
+use crate::pipelines::{DebugPipelines, Line};
 use crate::vk::{Buffer, Memory};
 use crate::{Result, engine};
 use ash::vk;
@@ -25,8 +23,8 @@ use image::RgbImage;
 
 /// One who looks.
 pub struct Onlooker<'a> {
-    /// How the frame was rendered.
-    pub config: &'a Config,
+    /// How the frame was rendered: the configuration of its run.
+    pub run: &'a Config,
     /// Names of the recording's views.
     pub names: &'a [String],
     /// The frame.
@@ -47,9 +45,9 @@ pub struct Seen {
 
 impl<'a> Onlooker<'a> {
     /// One who sees clusters and frusta from above (Gelderen figure 4.8).
-    pub fn birdseye(config: &'a Config, names: &'a [String], plan: &'a FramePlan) -> Self {
+    pub fn birdseye(run: &'a Config, names: &'a [String], plan: &'a FramePlan) -> Self {
         let show = Show { base: Base::Clusters, frusta: true, ..Show::default() };
-        Self { config, names, plan, camera: Camera::BirdsEye, show }
+        Self { run, names, plan, camera: Camera::BirdsEye, show }
     }
 
     /// Looks at the frame that `engine`, made for `mode`, counted last; `shaded` are its views.
@@ -63,7 +61,7 @@ impl<'a> Onlooker<'a> {
         mode: &Mode,
         shaded: Vec<ViewPixels>,
     ) -> Result<Seen> {
-        let pipelines = session.store.debug(&engine::variant(self.config, engine.method(), mode))?;
+        let pipelines = session.store.debug(&engine::variant(self.run, mode))?;
         engine.bind(session, &pipelines.all)?;
         let eye = self.eye(&shaded, &session.scene)?;
         let layers = self.layers(session, engine, (&pipelines, &eye), shaded)?;
@@ -80,11 +78,11 @@ impl<'a> Onlooker<'a> {
             Camera::BirdsEye => {
                 let far = views.iter().map(|view| view.frustum.far()).fold(0.0, f64::max);
                 let distances = shaded.iter().flat_map(|view| view.depth.iter().copied());
-                camera::birdseye(views, self.config.resolution, camera::reach(far, distances))
+                camera::birdseye(views, self.run.resolution, camera::reach(far, distances))
             }
             Camera::Placed(placed) => {
                 let farthest = placed.eye.distance(scene.origin) + scene.reach;
-                placed.view(views, self.config.resolution, farthest)
+                placed.view(views, self.run.resolution, farthest)
             }
         }
     }
@@ -99,14 +97,15 @@ impl<'a> Onlooker<'a> {
     ) -> Result<Layers> {
         let clustered = !self.plan.grids.is_empty();
         let origin = self.plan.origin();
-        let all: Vec<usize> = (0..self.plan.grids.len().max(1)).collect();
+        let sharing = engine.method().kind().sharing;
+        let all: Vec<usize> = (0..sharing.clusterings(self.plan.views.len())).collect();
         let (view, lookup, clusterings) = match self.camera {
-            Camera::View(view) => (view, 0, vec![if all.len() > 1 { view } else { 0 }]),
+            Camera::View(view) => (view, 0, vec![sharing.clustering_of(view)]),
             Camera::BirdsEye | Camera::Placed(_) => {
                 let slot = &mut session.slots[SLOT];
                 slot.mirrored[0] = false;
                 let near = eye.relative_to(origin);
-                let data = view_data(&near, None, self.config.resolution, session.scene.reach);
+                let data = view_data(&near, None, self.run.resolution, session.scene.reach);
                 slot.views.write(0, &[data]);
                 slot.draw_lists[0].update(&session.batches, std::slice::from_ref(eye));
                 (0, 1, all)
@@ -118,7 +117,7 @@ impl<'a> Onlooker<'a> {
                 Buffer::with_data(&session.context, "lines", vk::BufferUsageFlags::VERTEX_BUFFER, &lines)
             })
             .transpose()?;
-        let [color_bytes, pixel_bytes] = pixel_maps::view_bytes(self.config.resolution);
+        let [color_bytes, pixel_bytes] = pixel_maps::view_bytes(self.run.resolution);
         let readback = |size| {
             let usage = vk::BufferUsageFlags::TRANSFER_DST;
             Buffer::new(&session.context, "still readback", size, usage, Memory::Readback)
@@ -160,12 +159,12 @@ impl<'a> Onlooker<'a> {
     }
 
     fn pixel_count(&self) -> usize {
-        self.config.resolution.map(|side| side as usize).into_iter().product()
+        self.run.resolution.map(|side| side as usize).into_iter().product()
     }
 
     /// The camera's name, size and matrices.
     fn empty_pixels(&self, eye: &View) -> ViewPixels {
-        let [width, height] = self.config.resolution;
+        let [width, height] = self.run.resolution;
         ViewPixels {
             name: self.camera.name(self.names),
             width,

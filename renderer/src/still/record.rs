@@ -1,8 +1,7 @@
 //! The commands of a still, after its frame has ended: what one camera sees, and what lies over it.
 
-use crate::frame::{Eyes, Frame};
 use crate::pass::Recorder;
-use crate::passes::{clay, depth, draws, lines, pixel_clusters, pixel_maps, resolve, spheres};
+use crate::passes::{Eyes, Frame, clay, depth, draws, lines, pixel_clusters, pixel_maps, resolve, spheres};
 use crate::pipelines::DebugPipelines;
 use crate::vk::Buffer;
 

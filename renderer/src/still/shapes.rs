@@ -2,7 +2,7 @@
 
 use crate::geometry::views::{Pose, View};
 use crate::geometry::{ClusterSpace, Grid};
-use crate::passes::lines::Line;
+use crate::pipelines::Line;
 use glam::DVec3;
 
 /// Frusta of rendering cameras: green (Gelderen figure 4.8).

@@ -267,7 +267,7 @@ fn check_part(part: &Part) -> Result<Recording> {
     let config = &part.config;
     let recording = recording::load(&config.recording)?;
     for run in &part.runs {
-        plan_frames(config, &recording, &run.method)?;
+        plan_frames(&run.config, &recording)?;
     }
     let path = Path::new(&config.scene);
     if !procedural::NAMES.contains(&config.scene.as_str()) && !path.is_file() {

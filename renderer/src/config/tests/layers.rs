@@ -12,7 +12,7 @@ fn layers_replace_what_they_give_and_leave_the_rest() {
     let expected = Config {
         scene: "temple".into(),
         runs: 0,
-        methods: vec![MethodSpec::AllLights],
+        methods: vec![Method::AllLights],
         device: Some("llvmpipe".into()),
         exr: ExrFrames::List(vec![300, 580]),
         lights: vec![Lighting { count: 10000, intensity: 20.0, cutoff: 0.5, r0: 0.1 }],

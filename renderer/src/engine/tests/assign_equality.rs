@@ -16,7 +16,7 @@ enum Room {
 /// The lists of every set of lights among the clusters of `bits`.
 fn lists_of(
     (assign, test, lists_room): (Assign, Test, Room),
-    (method, grid): (MethodSpec, Grid),
+    (method, grid): (Method, Grid),
     sets: &[Vec<PointLight>],
     bits: &[u32],
 ) -> Vec<Lists> {
@@ -27,7 +27,7 @@ fn lists_of(
     let plan = frame_of(grid);
     sets.iter()
         .map(|lights| {
-            bench.engine.write_host_data(&mut bench.session, 0, &plan, lights).unwrap();
+            bench.write(&plan, lights);
             if lists_room == Room::None {
                 let grid = &bench.engine.clusterings[0].host[0][BufferName::Grid];
                 grid.write(offset_of!(GridData, mask_capacity) as u64, &[0u32]);
@@ -81,7 +81,7 @@ fn light_sets() -> Vec<Vec<PointLight>> {
     ]
 }
 
-fn all_ways_agree((method, grid): (MethodSpec, Grid), test: Test, sets: &[Vec<PointLight>]) {
+fn all_ways_agree((method, grid): (Method, Grid), test: Test, sets: &[Vec<PointLight>]) {
     let bits = random_bits(grid.cluster_count(), 7, 11);
     let brute = lists_of((Assign::Brute, test, Room::Plenty), (method, grid), sets, &bits);
     let ways = [

@@ -39,7 +39,7 @@ fn drawn(bench: &mut Bench) -> (Vec<u32>, Vec<DrawCommand>) {
     let read = |size| Buffer::new(&context, "test result", size, usage, Memory::Readback).unwrap();
     let (commands, instances) = (read(commands), read(instances));
     bench.run(|r, frame| {
-        cull::record(r, frame, Eyes::One(0));
+        cull::record(r, frame);
         let Draws::Indirect { buffers, .. } = &frame.draws else { panic!("the device culls by default") };
         for (from, to) in [(&buffers.commands, &commands), (&buffers.drawn_instances, &instances)] {
             r.copy(&BufferCopy { from, to, offset: 0, size: to.size });
@@ -76,7 +76,7 @@ fn compare(scene: &str) {
     let mut counts = vec![];
     for view in views() {
         let plan = FramePlan { frame: 0, views: vec![view], grids: vec![box_grid([8, 1, 1])] };
-        bench.engine.write_host_data(&mut bench.session, 0, &plan, &lights(10)).unwrap();
+        bench.write(&plan, &lights(10));
         let (device, commands) = drawn(&mut bench);
         assert_eq!(drawn(&mut bench), (device.clone(), commands.clone()), "a second run differs");
         let twin = cpu::cull(&boxes, &[view], EPSILON);

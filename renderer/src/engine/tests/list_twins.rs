@@ -8,7 +8,7 @@ use crate::cpu::{Candidate, CellRange, Culled, FoundLists, Visible};
 use crate::geometry::SphereTest;
 use crate::gpu_interface::{BLOCK_WORDS, COUNTER_COUNT, GridData, TREE_WIDTH};
 use crate::measure::DeviceCounts;
-use crate::passes::{cull_lights, hierarchy, lights as light_upload};
+use crate::passes::{cull_lights, hierarchy};
 use std::mem::offset_of;
 
 /// How small a margin is too close to call, metres and cells: f32 is good for a tenth of it here.
@@ -26,7 +26,7 @@ struct Culling {
 }
 
 impl Culling {
-    fn new(assign: Assign, (method, grid): (MethodSpec, Grid), test: &str, lights: &[PointLight]) -> Self {
+    fn new(assign: Assign, (method, grid): (Method, Grid), test: &str, lights: &[PointLight]) -> Self {
         let clusters = grid.cluster_count();
         let bits = random_bits(clusters, 7, 11);
         let visible = cpu::compact(&fragments_of(&bits, clusters)).visible;
@@ -36,11 +36,14 @@ impl Culling {
         let mut bench = Bench::with_config(&config, method, grid, lights, room);
         bench.compact(&bits);
         bench.run(|r, frame| {
-            light_upload::record(r, frame);
-            assign::transform_lights(r, frame, 0);
+            let lights = light_upload::record(r, frame);
+            assign::transform_lights(r, frame, lights, given());
         });
         let spheres = bench.spheres(BufferName::LightSpheres, lights.len());
-        bench.run(|r, frame| cull_lights::cull_lights(r, frame, 0));
+        bench.run(|r, frame| {
+            let lights = light_upload::record(r, frame);
+            cull_lights::cull_lights(r, frame, lights, given());
+        });
         Self { bench, grid, visible, test: test.of(&method), lights: lights.len() as u32, spheres }
     }
 
@@ -68,7 +71,7 @@ impl Culling {
     /// Counts lights, and gives how many tests that took.
     fn count(&mut self) -> u64 {
         self.bench.upload(BufferName::Counters, &[0; 2 * COUNTER_COUNT]);
-        self.bench.run(|r, frame| assign::count_lights(r, frame, 0));
+        self.bench.run(|r, frame| assign::count_lights(r, frame, given()));
         let words = self.bench.download(BufferName::Counters, 2 * COUNTER_COUNT);
         DeviceCounts::from_words(&words).intersection_tests
     }
@@ -76,8 +79,8 @@ impl Culling {
     /// Finishes the lists, and gives them.
     fn finish(&mut self) -> Lists {
         self.bench.run(|r, frame| {
-            scan::light_offsets(r, frame, 0);
-            assign::assign_lights(r, frame, 0);
+            scan::light_offsets(r, frame, given());
+            assign::assign_lights(r, frame, given());
         });
         let state = self.state();
         Lists {
@@ -99,7 +102,7 @@ fn unpack(words: [u32; 3]) -> CellRange {
 }
 
 /// Grids of both spaces and lights of many sizes.
-fn cases() -> Vec<((MethodSpec, Grid), &'static str, Vec<PointLight>)> {
+fn cases() -> Vec<((Method, Grid), &'static str, Vec<PointLight>)> {
     let mixed = || random_lights(3001, 4, 40.0, |u| 0.02 * 10_000f32.powf(u * u));
     let persp = (PERSP, frustum_grid([13, 9, 21]));
     let ortho = (ORTHO, box_grid([17, 13, 11]));
@@ -142,7 +145,7 @@ fn the_hierarchy_equals_its_twin() {
     for (case, (method, test, lights)) in cases().into_iter().enumerate() {
         let mut culling = Culling::new(Assign::Hierarchy, method, test, &lights);
         let (candidates, spheres) = culling.candidates();
-        culling.bench.run(|r, frame| hierarchy::build_hierarchy(r, frame, 0));
+        culling.bench.run(|r, frame| hierarchy::build_hierarchy(r, frame, given()));
         let order = sorted_as_their_twin(&mut culling, &spheres);
         let sorted: Vec<[f32; 4]> = order.iter().map(|&number| spheres[number as usize]).collect();
         assert!(culling.bench.spheres(BufferName::TreeSpheres, sorted.len()) == sorted, "case {case}");
@@ -246,7 +249,7 @@ fn lists_are_read_off_their_bits_as_by_their_twin() {
         let mut culling = Culling::new(assign, method, test, &lights);
         let (candidates, _) = culling.candidates();
         if assign == Assign::Hierarchy {
-            culling.bench.run(|r, frame| hierarchy::build_hierarchy(r, frame, 0));
+            culling.bench.run(|r, frame| hierarchy::build_hierarchy(r, frame, given()));
         }
         culling.count();
         let state = culling.state();
@@ -272,20 +275,23 @@ fn lists_in_any_order_are_sorted_as_by_their_twin() {
     let mut culling = Culling::new(Assign::Scatter, method, test, &lights);
     culling.bench.engine.clusterings[0].host[0][BufferName::Grid]
         .write(offset_of!(GridData, mask_capacity) as u64, &[0u32]);
-    culling.bench.run(|r, frame| cull_lights::cull_lights(r, frame, 0));
+    culling.bench.run(|r, frame| {
+        let lights = light_upload::record(r, frame);
+        cull_lights::cull_lights(r, frame, lights, given());
+    });
     let (candidates, _) = culling.candidates();
     culling.count();
     let state = culling.state();
     assert_eq!(state.masked, 0);
     culling.bench.run(|r, frame| {
-        scan::light_offsets(r, frame, 0);
-        assign::write_lists(r, frame, 0);
+        scan::light_offsets(r, frame, given());
+        assign::write_lists(r, frame, given());
     });
     let total = culling.state().index_total as usize;
     let offsets = culling.bench.download(BufferName::ListOffsets, state.visible as usize + 1);
     let unsorted =
         Lists { indices: culling.bench.download(BufferName::LightIndices, total), offsets: offsets.clone() };
-    culling.bench.run(|r, frame| assign::sort_lists(r, frame, 0));
+    culling.bench.run(|r, frame| assign::sort_lists(r, frame, given()));
     let sorted = Lists { indices: culling.bench.download(BufferName::LightIndices, total), offsets };
     for list in 0..state.visible as usize {
         let twin = cpu::sort_lists(unsorted.of(list), |number| candidates[number as usize].light);

@@ -9,11 +9,11 @@ use crate::geometry::{CellTest, SphereTest};
 const TESTS: [&str; 9] =
     ["hs", "sat-e", "sat-n", "sat-p", "sat-v", "hs+sat-n", "sat-epv", "hs+sat-enpv", "exact"];
 
-fn perspective() -> (MethodSpec, Grid) {
+fn perspective() -> (Method, Grid) {
     (PERSP, frustum_grid([13, 9, 21]))
 }
 
-fn orthographic() -> (MethodSpec, Grid) {
+fn orthographic() -> (Method, Grid) {
     (ORTHO, box_grid([23, 17, 29]))
 }
 
@@ -34,7 +34,7 @@ impl Case {
     }
 
     /// The list of each visible cluster, by brute force.
-    fn lists(&self, method: MethodSpec, test: SphereTest) -> Vec<Vec<u32>> {
+    fn lists(&self, method: Method, test: SphereTest) -> Vec<Vec<u32>> {
         let room =
             Capacities { visible_clusters: self.grid.cluster_count() as u32, light_indices: 8_000_000 };
         let config = Config { test: vec![Test::Named(test)], ..config() };
@@ -47,7 +47,7 @@ impl Case {
 }
 
 /// Lists of the device equal the twin's, but for pairs that the twin itself marks as too close to call.
-fn lists_equal_their_twin((method, grid): (MethodSpec, Grid), test: SphereTest, lights: Vec<PointLight>) {
+fn lists_equal_their_twin((method, grid): (Method, Grid), test: SphereTest, lights: Vec<PointLight>) {
     let case = Case::new(grid, lights);
     let lists = case.lists(method, test);
     let twin = cpu::assign(&grid, &case.visible, &case.lights, test, 1e-4);
@@ -106,7 +106,7 @@ fn touching_lights(grid: &Grid, visible: &[u32], farthest: f64) -> Vec<(u32, Poi
     found
 }
 
-fn no_touching_light_is_lost(method: MethodSpec, grid: Grid, farthest: f64) {
+fn no_touching_light_is_lost(method: Method, grid: Grid, farthest: f64) {
     let visible = Case::new(grid, vec![]).visible;
     let (touched, lights): (Vec<u32>, Vec<PointLight>) =
         touching_lights(&grid, &visible, farthest).into_iter().unzip();

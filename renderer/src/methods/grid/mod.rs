@@ -1,6 +1,16 @@
-//! Methods that group fragments by the cells of a grid.
+//! Methods that group fragments by the cells of a grid. They differ in four ways that do not depend on each other:
+//!
+//! | | |
+//! | --- | --- |
+//! | grouping | [`Space`]: what the cells are; [`Sharing`]: whose grid it is |
+//! | groups with lists | [`crate::assign::Clusters`], of the configuration: those that hold a fragment, or all |
+//! | bounds tested against lights | [`Bounds`] |
+//! | list store | [`ListStore`] |
+//!
+//! What the assignment works with is in [`crate::assign`], its twins are in [`crate::cpu`].
 
 mod plan;
+mod record;
 
 #[cfg(test)]
 mod properties;
@@ -8,3 +18,95 @@ mod properties;
 mod worked_values;
 
 pub use plan::plan;
+pub use record::{light_lists, record};
+
+use super::Sharing;
+use crate::geometry::CellShape;
+use std::mem::discriminant;
+
+/// What the cells of a grid are (Gelderen sections 3.1, 4.2, 4.3).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Space {
+    /// Perspective grid; the size of a cluster in pixels.
+    Persp {
+        /// Cluster side on the screen, pixels.
+        pixels: f64,
+    },
+    /// Orthographic grid; the side of a cluster in metres.
+    Ortho {
+        /// Cluster side, metres.
+        metres: f64,
+    },
+    /// Displaced perspective grid: apex moved back.
+    Displ {
+        /// Cluster side in pixels of the perspective grid whose average cluster volume is kept.
+        pixels: f64,
+        /// How far the apex moves back, metres.
+        displacement: f64,
+    },
+    /// Tiles of the screen: a perspective grid of one slice over the whole depth.
+    Tiled {
+        /// Tile side, pixels.
+        pixels: f64,
+    },
+}
+
+impl Space {
+    /// Its sizes, in the order of a method's name.
+    pub fn sizes(&self) -> Vec<f64> {
+        match *self {
+            Self::Persp { pixels } | Self::Tiled { pixels } => vec![pixels],
+            Self::Ortho { metres } => vec![metres],
+            Self::Displ { pixels, displacement } => vec![pixels, displacement],
+        }
+    }
+
+    /// What its cells look like.
+    pub fn shape(&self) -> CellShape {
+        match self {
+            Self::Persp { .. } | Self::Displ { .. } | Self::Tiled { .. } => CellShape::Frustum,
+            Self::Ortho { .. } => CellShape::Box,
+        }
+    }
+}
+
+/// What of a group is tested against lights.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bounds {
+    /// Its cell of the grid.
+    Implicit,
+}
+
+/// Where the lists of groups lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ListStore {
+    /// One behind the other, found by the sum of the lengths before.
+    Offsets,
+}
+
+/// A method that groups fragments by the cells of a grid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GridMethod {
+    /// One grid a view, or one for all.
+    pub sharing: Sharing,
+    /// The cells.
+    pub space: Space,
+    /// What of them is tested.
+    pub bounds: Bounds,
+    /// Where their lists lie.
+    pub lists: ListStore,
+}
+
+impl GridMethod {
+    /// One with implicit bounds and lists by offsets.
+    pub const fn new(sharing: Sharing, space: Space) -> Self {
+        Self { sharing, space, bounds: Bounds::Implicit, lists: ListStore::Offsets }
+    }
+
+    /// Whether the two differ in their sizes alone.
+    pub fn is_like(&self, other: &Self) -> bool {
+        let Self { sharing, space, bounds, lists } = *self;
+        (sharing, bounds, lists) == (other.sharing, other.bounds, other.lists)
+            && discriminant(&space) == discriminant(&other.space)
+    }
+}

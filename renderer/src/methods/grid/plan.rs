@@ -1,11 +1,12 @@
 //! From a method and the views of a frame to its clustering grids.
 
+use super::Space;
 use crate::geometry::views::{Pose, View, common_mirror, head_space};
 use crate::geometry::{
     ClusterSpace, DisplacedVolume, Frustum, Grid, PerspectiveDimensions, average_volume, displaced,
-    enclosing, from_metres, from_pixels, from_volume,
+    enclosing, from_metres, from_pixels, from_volume, tiles_from_pixels,
 };
-use crate::methods::{MethodSpec, Sharing, Space};
+use crate::methods::{Method, Sharing};
 use crate::{Error, Result};
 use glam::DVec3;
 
@@ -33,7 +34,7 @@ pub fn plan(
     resolution: [u32; 2],
     volume: DisplacedVolume,
 ) -> Result<Vec<Grid>> {
-    let name = MethodSpec::Clustered { sharing, space };
+    let name = Method::grid(sharing, space);
     let planner = Planner { name, space, resolution, volume };
     planner.check(views)?;
     match sharing {
@@ -43,7 +44,7 @@ pub fn plan(
 }
 
 struct Planner {
-    name: MethodSpec,
+    name: Method,
     space: Space,
     resolution: [u32; 2],
     volume: DisplacedVolume,
@@ -51,12 +52,9 @@ struct Planner {
 
 impl Planner {
     fn check(&self, views: &[View]) -> Result<()> {
-        let sizes = match self.space {
-            Space::Persp { pixels } => vec![pixels],
-            Space::Ortho { metres } => vec![metres],
-            Space::Displ { pixels, displacement } => vec![pixels, displacement],
-        };
-        if let Some(size) = sizes.into_iter().find(|size| !(*size > 0.0 && *size <= LARGEST_SIZE)) {
+        if let Some(size) =
+            self.space.sizes().into_iter().find(|size| !(*size > 0.0 && *size <= LARGEST_SIZE))
+        {
             let message = format!("a size of {size} is not above 0 and at most {LARGEST_SIZE}");
             return Err(self.error(&message));
         }
@@ -79,6 +77,10 @@ impl Planner {
                 let counts = from_pixels(frustum, self.resolution, pixels);
                 self.perspective(view.pose, self.grown(frustum, pixels, &counts), counts)
             }
+            Space::Tiled { pixels } => {
+                let counts = tiles_from_pixels(frustum, self.resolution, pixels);
+                self.perspective(view.pose, self.grown(frustum, pixels, &counts), counts)
+            }
             Space::Ortho { metres } => self.orthographic(view.pose, std::slice::from_ref(view), metres),
             Space::Displ { pixels, displacement } => {
                 let volume = self.displaced_cluster_volume(frustum, pixels, displacement);
@@ -98,6 +100,7 @@ impl Planner {
                 let (pose, frustum) = self.enclosing_frustum(&head, views)?;
                 self.perspective(pose, frustum, from_volume(&frustum, volume))
             }
+            Space::Tiled { .. } => Err(self.error("tiles divide the screen of one view and are not shared")),
             Space::Ortho { metres } => self.orthographic(head, views, metres),
             Space::Displ { pixels, displacement } => {
                 let volume = mean(&|frustum| self.displaced_cluster_volume(frustum, pixels, displacement));

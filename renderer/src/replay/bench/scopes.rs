@@ -1,11 +1,10 @@
 //! What measuring costs: frames with every stage timed and frames timed as a whole alone, in turn in one process.
 
-use super::{Case, SLOT};
+use super::{SLOT, TimedFrame};
 use crate::Result;
 use crate::assign::Assigner;
 use crate::config::{Config, Scopes};
 use crate::engine::{Engine, Session, plan_frames};
-use crate::geometry::SphereTest;
 use crate::inputs::Inputs;
 use crate::output::{PlannedRun, planned_runs};
 use crate::replay::{Watch, choose};
@@ -35,29 +34,22 @@ pub fn bench_scopes(config: &Config, inputs: &Inputs, watch: &Watch) -> Result<V
     let mut session = Session::new(config, &inputs.scene, inputs.recording.view_set())?;
     session.context.require_timestamps()?;
     let runs = planned_runs(config);
-    let rows = runs.iter().map(|run| measure(config, inputs, &mut session, run, watch));
+    let rows = runs.iter().map(|run| measure(inputs, &mut session, run, watch));
     let rows = rows.collect::<Result<_>>()?;
     session.context.check_validation()?;
     Ok(rows)
 }
 
-fn measure(
-    config: &Config,
-    inputs: &Inputs,
-    session: &mut Session,
-    run: &PlannedRun,
-    watch: &Watch,
-) -> Result<ScopesRow> {
-    let [all, frame] = [Scopes::All, Scopes::Frame].map(|scopes| Config { scopes, ..config.clone() });
-    let plans = plan_frames(config, &inputs.recording, &run.method)?;
-    let assigner = choose::assigner(config, inputs, session, (run, &plans))?;
-    let how = (assigner, run.test.of(&run.method));
+fn measure(inputs: &Inputs, session: &mut Session, run: &PlannedRun, watch: &Watch) -> Result<ScopesRow> {
+    let [all, frame] = [Scopes::All, Scopes::Frame].map(|scopes| Config { scopes, ..run.config.clone() });
+    let plans = plan_frames(&run.config, &inputs.recording)?;
+    let assigner = choose::assigner(inputs, session, (run, &plans))?;
     let mut source = inputs.light_source(&run.lights)?;
     let mut pairs = vec![];
     for plan in &plans {
-        let lights = source.at_frame(plan.frame).to_vec();
-        let case = |config| Case { config, method: run.method, plan, lights: &lights, shaded: true };
-        pairs.push(least_times([case(&all), case(&frame)], session, how, watch)?);
+        let lights = source.at_frame(plan.frame);
+        let timed = |run| TimedFrame { run, plan, lights, shaded: true };
+        pairs.push(least_times([timed(&all), timed(&frame)], session, assigner, watch)?);
     }
     Ok(ScopesRow {
         run: run.name.clone(),
@@ -70,15 +62,15 @@ fn measure(
 
 /// The least frame time of each case, milliseconds. Who comes first changes with every turn.
 fn least_times(
-    cases: [Case<'_>; 2],
+    cases: [TimedFrame<'_>; 2],
     session: &mut Session,
-    how: (Assigner, SphereTest),
+    assigner: Assigner,
     watch: &Watch,
 ) -> Result<[f64; 2]> {
-    let turns = cases[0].config.runs;
+    let turns = cases[0].run.runs;
     let mut engines = vec![];
     for case in &cases {
-        engines.push(case.engine(session, how, false)?);
+        engines.push(case.engine(session, assigner, false)?);
     }
     let mut least = [f64::INFINITY; 2];
     for turn in 0..=turns {
@@ -95,7 +87,7 @@ fn least_times(
 }
 
 /// Milliseconds of the outermost scope, which is the frame.
-fn frame_time(case: &Case<'_>, session: &mut Session, engine: &mut Engine) -> Result<f64> {
+fn frame_time(case: &TimedFrame<'_>, session: &mut Session, engine: &mut Engine) -> Result<f64> {
     case.render(session, engine)?;
     let frame = session.slots[SLOT].timestamps.read()?.next();
     Ok(frame.map_or(f64::NAN, |(gpu_ms, _)| gpu_ms))

@@ -4,7 +4,7 @@ use crate::assign::Marking;
 use crate::config::Config;
 use crate::geometry::DisplacedVolume;
 use crate::lights::{Attenuation, Lighting};
-use crate::methods::MethodSpec;
+use crate::methods::Method;
 use crate::output::{MANIFEST, Manifest, Source};
 use crate::report::format::grouped;
 use crate::report::results::{LightingName, Setting};
@@ -18,12 +18,12 @@ pub fn built(run: &Manifest) -> String {
 }
 
 /// The method of the run in `directory`.
-pub fn method(run: &Manifest, directory: &Path) -> Result<MethodSpec> {
+pub fn method(run: &Manifest, directory: &Path) -> Result<Method> {
     run.method.parse().map_err(|error| Error::file(directory.join(MANIFEST), format!("method: {error}")))
 }
 
 /// What it shares with runs that are drawn in one figure.
-pub fn setting(run: &Manifest, views: u32, method: MethodSpec) -> Setting {
+pub fn setting(run: &Manifest, views: u32, method: Method) -> Setting {
     Setting {
         scene: run.scene.name.clone(),
         recording: run.recording.name.clone(),

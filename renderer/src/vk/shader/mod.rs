@@ -2,7 +2,8 @@
 //!
 //! Sources are embedded in the binary or read from a directory. A root shader starts with `#version 460`; `#include
 //! "lib/scan.glsl"` is looked up below the shaders' root, then beside the includer; a file with a line `#pragma once`
-//! is included once only. Generated files (`generated/...`) are included like any other.
+//! is included once only. Generated files (`generated/...`) are included like any other. A define may choose a file:
+//! `#include "lookup/$LOOKUP.glsl"`.
 
 mod cache;
 mod compiler;
@@ -58,7 +59,7 @@ impl ShaderLibrary {
     pub fn compile(&self, path: &str, defines: &[(&str, String)]) -> Result<Arc<Vec<u32>>> {
         let defines: BTreeMap<&str, &str> =
             defines.iter().map(|(name, value)| (*name, value.as_str())).collect();
-        let closure = self.sources.closure(path)?;
+        let closure = self.sources.closure(path, &defines)?;
         let key = key(&closure, &defines);
         if let Some(words) = self.lock().get(&key) {
             return Ok(words.clone());

@@ -98,18 +98,21 @@ impl Sources {
         Ok(None)
     }
 
-    /// All files that `root` can reach through includes, whether or not a condition later leaves some out.
+    /// All files that `root` can reach through includes, whether or not a condition later leaves some out. `$NAME` in a
+    /// header stands for the value of that define.
     ///
     /// # Errors
     /// When `root` does not exist or a file cannot be read; a missing include is left for the compiler to report.
-    pub fn closure(&self, root: &str) -> Result<Closure> {
+    pub fn closure(&self, root: &str, defines: &BTreeMap<&str, &str>) -> Result<Closure> {
         let text = self.read(root)?.ok_or_else(|| self.missing(root))?;
         let mut files = BTreeMap::new();
         let mut pending = vec![(root.to_owned(), text)];
         while let Some((name, text)) = pending.pop() {
             let mut includes = Vec::new();
             for (line, header) in include_lines(&text) {
-                let Some((target, target_text)) = self.resolve(header, &name)? else { continue };
+                let Some((target, target_text)) = self.resolve(&named(header, defines), &name)? else {
+                    continue;
+                };
                 includes.push(Include { line, header: header.to_owned(), target: target.clone() });
                 if target != name && !files.contains_key(&target) {
                     pending.push((target, target_text));
@@ -126,6 +129,13 @@ impl Sources {
             None => Error::Internal(format!("shader {root} is not embedded in the program")),
         }
     }
+}
+
+/// A header with the values of the defines that it names.
+fn named(header: &str, defines: &BTreeMap<&str, &str>) -> String {
+    let put_in = |text: String, (name, value): (&&str, &&str)| text.replace(&format!("${name}"), value);
+    // The longest name first, for one may begin another.
+    defines.iter().rev().fold(header.to_owned(), put_in)
 }
 
 /// Reads every file below a directory, by its path with slashes.
@@ -235,6 +245,13 @@ mod tests {
         assert_eq!(normal("a//b/./../c.glsl").as_deref(), Some("a/c.glsl"));
         assert_eq!(normal("../secret"), None);
         assert_eq!(normal("/lib/scan.glsl").as_deref(), Some("lib/scan.glsl"));
+    }
+
+    #[test]
+    fn a_header_may_name_a_define() {
+        let defines = BTreeMap::from([("LOOK", "x"), ("LOOKUP", "clustered")]);
+        assert_eq!(named("lookup/$LOOKUP.glsl", &defines), "lookup/clustered.glsl");
+        assert_eq!(named("lib/scan.glsl", &defines), "lib/scan.glsl");
     }
 
     #[test]

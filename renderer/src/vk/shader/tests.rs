@@ -193,7 +193,7 @@ fn what_is_kept_on_disk_is_taken_and_what_is_damaged_is_not() {
 
     // Another valid entry under this key shows that the disk is what is read.
     let other = [0x0723_0203, 42];
-    let key = key(&fixture.library().sources.closure("a.comp").unwrap(), &BTreeMap::new());
+    let key = key(&fixture.library().sources.closure("a.comp", &BTreeMap::new()).unwrap(), &BTreeMap::new());
     DiskCache::new(fixture.cache.path().to_owned()).store(&key, &other);
     assert_eq!(*fixture.library().compile("a.comp", &[]).unwrap(), other);
 

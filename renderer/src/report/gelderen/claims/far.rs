@@ -1,7 +1,7 @@
 //! G4 and G5: what far geometry does to Persp and to Ortho.
 
 use super::is_far;
-use crate::methods::MethodSpec;
+use crate::methods::Method;
 use crate::report::claim::{Findings, mean_where, milliseconds, number};
 use crate::report::gelderen::flies_the_street;
 use crate::report::results::{ResultSet, Run, TUNED, indi, metric};
@@ -42,7 +42,7 @@ pub(super) fn ortho(set: &ResultSet) -> Findings {
 
 /// Runs of `method` on the street's recording that have frames both within the far stretch and without: mono, or
 /// stereo where there is no mono.
-fn on_the_street<'a>(set: &'a ResultSet, method: MethodSpec, findings: &mut Findings) -> Vec<&'a Run> {
+fn on_the_street<'a>(set: &'a ResultSet, method: Method, findings: &mut Findings) -> Vec<&'a Run> {
     let usable = |run: &&Run| {
         let frames = &run.frames.numbers;
         run.method == method

@@ -1,6 +1,6 @@
 //! How clusters are distributed, as heat maps: a column a lighting, a row a method (6.9, 6.10).
 
-use crate::methods::MethodSpec;
+use crate::methods::Method;
 use crate::report::chart::{Chart, Heat, Plot};
 use crate::report::results::{Distribution, ResultSet, Run, Setting, TUNED, indi, lightings, method_name};
 
@@ -55,7 +55,7 @@ fn heat(run: &Run, distribution: Distribution) -> Option<Heat> {
 
 /// A chart of the tuned Indi methods in rows and lightings in columns; `None` where no run has data.
 pub fn by_method(set: &ResultSet, setting: &Setting, draw: impl Fn(&Run) -> Option<Plot>) -> Option<Chart> {
-    let methods: Vec<MethodSpec> =
+    let methods: Vec<Method> =
         TUNED.map(indi).into_iter().filter(|&m| !set.of_method(setting, m).is_empty()).collect();
     let lightings = lightings(set.of(setting).filter(|run| methods.contains(&run.method)));
     let mut chart = Chart {

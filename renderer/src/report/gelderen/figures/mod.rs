@@ -11,7 +11,7 @@ mod over_time;
 
 use super::is_sun_temple;
 use crate::Result;
-use crate::methods::{MethodSpec, Space};
+use crate::methods::{Method, Space};
 use crate::report::chart::{Chart, palette::Color};
 use crate::report::figure::{Drawn, Figure, Wanted, figures};
 use crate::report::pictures;
@@ -204,11 +204,12 @@ const FRAGMENTS: Wanted<'static> = Wanted {
 };
 
 /// The colour of a kind of grid.
-fn space_color(method: MethodSpec) -> Color {
+fn space_color(method: Method) -> Color {
     match method {
-        MethodSpec::AllLights => "black",
-        MethodSpec::Clustered { space, .. } => match space {
+        Method::AllLights => "black",
+        Method::Grid(grid) => match grid.space {
             Space::Persp { .. } => "blue",
+            Space::Tiled { .. } => "orange",
             Space::Ortho { .. } => "vermillion",
             Space::Displ { .. } => "green",
         },

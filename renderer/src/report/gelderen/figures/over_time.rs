@@ -1,7 +1,7 @@
 //! Figures over the frames of the replay: a column a lighting, a row a metric (6.2 to 6.6, C.3, C.4).
 
 use super::space_color;
-use crate::methods::{MethodSpec, Sharing, Space};
+use crate::methods::{GridMethod, Method, Sharing, Space};
 use crate::report::chart::{Chart, Key, Look, Plot, Series, palette};
 use crate::report::results::{
     LightingName, ResultSet, Run, Setting, TUNED, encl, indi, is_tuned, lightings, method_name, metric,
@@ -47,8 +47,8 @@ impl Sweep {
     }
 
     /// The sizes of an Indi method of this kind.
-    fn size(self, method: MethodSpec) -> Option<[f64; 2]> {
-        let MethodSpec::Clustered { sharing: Sharing::Indi, space } = method else { return None };
+    fn size(self, method: Method) -> Option<[f64; 2]> {
+        let Method::Grid(GridMethod { sharing: Sharing::Indi, space, .. }) = method else { return None };
         match (self, space) {
             (Self::Persp, Space::Persp { pixels }) => Some([pixels, 0.0]),
             (Self::Ortho, Space::Ortho { metres }) => Some([metres, 0.0]),
@@ -60,7 +60,7 @@ impl Sweep {
 
 /// Every size of one kind; `None` where there are fewer than two.
 pub fn sweep(set: &ResultSet, setting: &Setting, sweep: Sweep) -> Option<Chart> {
-    let mut methods: Vec<([f64; 2], MethodSpec)> =
+    let mut methods: Vec<([f64; 2], Method)> =
         set.of(setting).filter_map(|run| Some((sweep.size(run.method)?, run.method))).collect();
     methods.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     methods.dedup();
@@ -96,7 +96,7 @@ pub fn tuned(set: &ResultSet, setting: &Setting) -> Option<Chart> {
     over_time(set, setting, &lines)
 }
 
-type Line = (MethodSpec, String, Look);
+type Line = (Method, String, Look);
 
 fn over_time(set: &ResultSet, setting: &Setting, lines: &[Line]) -> Option<Chart> {
     let present = |line: &&Line| set.of(setting).any(|run| run.method == line.0);

@@ -1,63 +1,61 @@
-//! The atemporal run: every frame once, with everything counted and read back; nothing is timed.
+//! A counted frame: rendered with everything counted and read back; nothing is timed.
 
-use super::RunSink;
+use super::{Counted, Engine, FramePlan, Session};
 use crate::Result;
-use crate::engine::{Counted, Engine, FramePlan, Session};
-use crate::frame::Frame;
 use crate::geometry::views::View;
 use crate::gpu_interface::{ClusteringState, PixelData};
-use crate::lights::LightSource;
-use crate::measure::{FrameCounts, ViewPixels};
-use crate::methods::MethodSpec;
+use crate::lights::FrameLights;
+use crate::measure::{ClusterLists, FrameCounts, ViewPixels};
 use crate::pass::Recorder;
-use crate::passes::{mark, pixel_maps, readback};
+use crate::passes::{Frame, mark, pixel_maps, readback};
 use crate::vk::{Buffer, Memory};
 use ash::vk;
 use half::f16;
 
-/// The slot that atemporal frames use: each is read before the next begins.
-pub const SLOT: usize = 0;
+/// The slot that counted frames use: each is read before the next begins.
+pub const COUNTING_SLOT: usize = 0;
 
-/// Renders and counts one frame; where `view_names` are given, its pixels come too, a view each.
+/// What is counted of one frame.
+pub struct CountedFrame {
+    /// Its record.
+    pub counts: FrameCounts,
+    /// Its pixels, a view each, where they were asked for.
+    pub pixels: Vec<ViewPixels>,
+}
+
+/// Renders and counts one frame at `time_s` seconds of the recording; where names of views are given, their pixels come
+/// too. `lists` takes the light lists of each clustering.
+///
+/// # Errors
+/// Whatever fails on the device or in `lists`; counts that must never be.
 pub fn count_frame(
     engine: &mut Engine,
     session: &mut Session,
-    plan: &FramePlan,
-    lights: &mut LightSource,
+    (plan, lights): (&FramePlan, FrameLights),
     (time_s, view_names): (f64, Option<&[String]>),
-    sink: &mut dyn RunSink,
-) -> Result<(FrameCounts, Vec<ViewPixels>)> {
+    lists: &mut dyn FnMut(ClusterLists) -> Result<()>,
+) -> Result<CountedFrame> {
     let resolution = engine.resolution();
     let images = image_buffers(session, resolution, view_names.map_or(0, <[String]>::len))?;
-    let lights = lights.at_frame(plan.frame);
-    loop {
-        let mut look_closer = |r: &mut Recorder, frame: &Frame| {
-            if frame.clustered {
-                (0..frame.clusterings.len()).for_each(|c| mark::count_fragments(r, frame, c));
-            }
-            for (view, buffer) in images.iter().enumerate() {
-                pixel_maps::record(r, frame, view, buffer);
-            }
-        };
-        engine.submit(session, SLOT, plan, lights, (&mut readback::clear_counters, &mut look_closer))?;
-        session.slots[SLOT].wait()?;
-        if !engine.grow_if_needed(session, SLOT, plan.frame)? {
-            break;
+    let has_lists = engine.method().has_lists();
+    let mut look_closer = |r: &mut Recorder, frame: &Frame| {
+        if has_lists {
+            (0..frame.clusterings.len()).for_each(|c| mark::count_fragments(r, frame, c));
         }
-    }
-    let counts = read_counts(engine, session, plan, (lights.len() as u32, time_s), sink)?;
+        for (view, buffer) in images.iter().enumerate() {
+            pixel_maps::record(r, frame, view, buffer);
+        }
+    };
+    let extend = (&mut readback::clear_counters as _, &mut look_closer as _);
+    engine.render(session, COUNTING_SLOT, (plan, lights), extend)?;
+    let counts = read_counts(engine, session, plan, (lights.list.len() as u32, time_s), lists)?;
     counts.check()?;
     let views = images.iter().zip(view_names.unwrap_or_default()).zip(plan.views.iter().enumerate());
     let pixels = views.map(|((buffer, name), (number, view))| ViewPixels {
-        dimensions: grid_of(plan, number),
+        dimensions: plan.grid_of(engine.method(), number).map_or([0; 3], |grid| grid.dimensions),
         ..view_pixels(buffer, name, view, resolution)
     });
-    Ok((counts, pixels.collect()))
-}
-
-/// Cells a side of the grid that view `number` looks up; zeros where there is none.
-fn grid_of(plan: &FramePlan, number: usize) -> [u32; 3] {
-    plan.grids.get(number).or(plan.grids.first()).map_or([0; 3], |grid| grid.dimensions)
+    Ok(CountedFrame { pixels: pixels.collect(), counts })
 }
 
 fn image_buffers(session: &Session, resolution: [u32; 2], count: usize) -> Result<Vec<Buffer>> {
@@ -73,22 +71,22 @@ fn read_counts(
     session: &mut Session,
     plan: &FramePlan,
     (lights, time_s): (u32, f64),
-    sink: &mut dyn RunSink,
+    lists: &mut dyn FnMut(ClusterLists) -> Result<()>,
 ) -> Result<FrameCounts> {
-    let states = engine.states(session, SLOT);
-    let clustered = engine.method() != MethodSpec::AllLights;
+    let states = engine.states(session, COUNTING_SLOT);
+    let clustered = engine.method().has_lists();
     let views = plan.views.len() as u32;
     let mut counts = FrameCounts { frame: plan.frame, time_s, views, ..Default::default() };
     for (c, state) in states.into_iter().enumerate() {
         let state = if clustered { state } else { ClusteringState::default() };
-        let read = Counted::read(engine, session, (SLOT, plan.frame, c), (state, lights))?;
+        let read = Counted::read(engine, session, (COUNTING_SLOT, plan.frame, c), (state, lights))?;
         read.check(lights)?;
         counts.counters.add(&read.counters);
         counts.lights_per_fragment.push(read.lights_per_fragment());
         if clustered {
             let capacity = engine.capacities().light_indices;
             counts.clusterings.push(read.clustering(plan.grids[c].dimensions, capacity));
-            sink.lists(read.lists)?;
+            lists(read.lists)?;
         }
     }
     Ok(counts)

@@ -1,0 +1,117 @@
+//! What the host writes for each frame before it is recorded: grids, views, what is drawn, lights.
+
+use super::{Engine, FramePlan, Session};
+use crate::Result;
+use crate::buffers::BufferName;
+use crate::clustering::{grid_data, gridless_data, view_data};
+use crate::culling::Culling;
+use crate::gpu_interface::{DrawCounts, LightData};
+use crate::lights::{FrameLights, PointLight};
+use glam::{DVec3, Vec3};
+
+impl Engine {
+    /// Writes what the frame in `slot` is made from; its lights only where they are not those on the device.
+    ///
+    /// # Errors
+    /// A grid larger than the buffers were made for; whatever fails on the device.
+    pub(super) fn write_host_data(
+        &mut self,
+        session: &mut Session,
+        slot: usize,
+        plan: &FramePlan,
+        lights: FrameLights,
+    ) -> Result<()> {
+        self.largest.check(plan)?;
+        let origin = plan.origin();
+        if session.scene.origin != origin {
+            session.scene.move_origin(&session.context, origin)?;
+        }
+        for clustering in 0..self.clusterings.len() {
+            self.write_clustering(session, slot, plan, clustering, lights.list.len() as u32);
+        }
+        self.write_draws(session, slot, plan);
+        self.write_lights(slot, lights, origin);
+        Ok(())
+    }
+
+    /// What each view draws, or in which order.
+    fn write_draws(&self, session: &mut Session, slot: usize, plan: &FramePlan) {
+        let this = &mut session.slots[slot];
+        this.mirrored.clear();
+        this.mirrored.extend(plan.views.iter().map(|view| view.pose.mirror.is_some()));
+        match self.culling {
+            Culling::Cpu => {
+                for (view, list) in plan.views.chunks(1).zip(&mut this.draw_lists) {
+                    list.update(&session.batches, view);
+                }
+                if self.multiview {
+                    this.draw_lists[plan.views.len()].update(&session.batches, &plan.views);
+                }
+            }
+            Culling::Gpu => {
+                let mut offset = size_of::<DrawCounts>() as u64;
+                for (view, order) in plan.views.iter().zip(&mut this.slot_orders) {
+                    order.update(&session.draw_slots, view);
+                    this.draw_order.write(offset, &order.slots);
+                    offset += size_of_val(order.slots.as_slice()) as u64;
+                }
+            }
+        }
+    }
+
+    /// The lights relative to the origin, unless the device has them so already.
+    fn write_lights(&mut self, slot: usize, lights: FrameLights, origin: DVec3) {
+        let wanted = Some((lights.revision, origin));
+        self.lights_changed = self.lights_there != wanted;
+        if self.lights_changed {
+            self.lights_there = wanted;
+            self.staged.clear();
+            self.staged.extend(lights.list.iter().map(|light| light_data(light, origin)));
+            self.staging[slot].write(0, &self.staged);
+        }
+    }
+
+    /// Writes a clustering's grid and the views that look lights up there, relative to the frame's origin.
+    fn write_clustering(
+        &mut self,
+        session: &Session,
+        slot: usize,
+        plan: &FramePlan,
+        number: usize,
+        lights: u32,
+    ) {
+        let clustering = &mut self.clusterings[number];
+        let origin = session.scene.origin;
+        let grid = plan.grids.get(number).map(|grid| grid.relative_to(origin));
+        let views = &plan.views[clustering.views.clone()];
+        let data = match &grid {
+            Some(grid) => grid_data(grid, views, origin, lights, &self.sizes),
+            None => gridless_data(lights),
+        };
+        clustering.cluster_count = grid.map_or(0, |grid| grid.cluster_count() as u32);
+        clustering.word_count = data.word_count;
+        clustering.host[slot][BufferName::Grid].write(0, &[data]);
+        if let Some(grid) = &grid {
+            grid.slice_planes(&mut self.slice_planes);
+            clustering.host[slot][BufferName::SlicePlanes].write(0, &self.slice_planes);
+        }
+        for (view, number) in views.iter().zip(clustering.views.clone()) {
+            let near = view.relative_to(origin);
+            let data = view_data(&near, grid.as_ref(), self.resolution, session.scene.reach);
+            session.slots[slot].views.write((number * size_of_val(&data)) as u64, &[data]);
+        }
+    }
+}
+
+/// A light as shaders read it in a frame with this origin.
+fn light_data(light: &PointLight, origin: DVec3) -> LightData {
+    LightData {
+        position: (Vec3::from(light.position).as_dvec3() - origin).as_vec3().to_array(),
+        r1: light.r1,
+        tint: light.tint,
+        intensity: light.intensity,
+        cutoff: light.cutoff,
+        r0: light.r0,
+        ..Default::default()
+    }
+}

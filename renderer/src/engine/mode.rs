@@ -1,0 +1,138 @@
+//! What an engine is made for, and what follows from it: shader variants and buffer sizes.
+
+use super::FramePlan;
+use crate::assign::{Assigner, Clusters};
+use crate::buffers::ClusteringSizes;
+use crate::config::Config;
+use crate::geometry::SphereTest;
+use crate::measure::Capacities;
+use crate::methods::Method;
+use crate::pipelines::{Variant, lights_at_once};
+use crate::{Error, Result, geometry::Grid};
+
+/// The largest grid that an engine may meet: what its buffers are made for.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct LargestGrid {
+    /// Clusters.
+    pub clusters: u64,
+    /// Depths between slices.
+    pub slice_planes: u32,
+}
+
+impl LargestGrid {
+    /// Of planned frames.
+    pub fn of(plans: &[FramePlan]) -> Self {
+        let largest = |all: Self, grid: &Grid| Self {
+            clusters: all.clusters.max(grid.cluster_count()),
+            slice_planes: all.slice_planes.max(grid.dimensions[2] + 1),
+        };
+        plans.iter().flat_map(|plan| &plan.grids).fold(Self::default(), largest)
+    }
+
+    /// Refuses a frame with a larger grid.
+    ///
+    /// # Errors
+    /// Says how large it is, and how large it may be.
+    pub fn check(&self, plan: &FramePlan) -> Result<()> {
+        let Self { clusters, slice_planes } = Self::of(std::slice::from_ref(plan));
+        if clusters <= self.clusters && slice_planes <= self.slice_planes {
+            return Ok(());
+        }
+        Err(Error::Input(format!(
+            "frame {} needs a grid of {clusters} clusters in {} slices, more than the {} in {} that buffers were made for: \
+             use larger clusters, or plan this frame too",
+            plan.frame,
+            slice_planes.saturating_sub(1),
+            self.clusters,
+            self.slice_planes.saturating_sub(1),
+        )))
+    }
+}
+
+/// What an engine is made for, besides the configuration of its run.
+#[derive(Debug, Clone, Copy)]
+pub struct Mode {
+    /// Most lights of all frames.
+    pub lights: u32,
+    /// What the buffers hold at first.
+    pub capacities: Capacities,
+    /// How the lists are built.
+    pub assigner: Assigner,
+    /// Whether everything is counted: the atemporal run.
+    pub counting: bool,
+}
+
+impl Mode {
+    /// Brute force with the capacities that `config` begins with, counting.
+    pub fn counting(config: &Config, lights: u32) -> Self {
+        Self { lights, capacities: config.capacities(), assigner: Assigner::Brute, counting: true }
+    }
+}
+
+/// What one run's configuration says of its method, with the mode: the values on the axes.
+pub(super) struct Chosen {
+    pub method: Method,
+    pub assigner: Assigner,
+    pub clusters: Clusters,
+    test: SphereTest,
+}
+
+impl Chosen {
+    /// Of a run's configuration, which has one value on every axis.
+    pub fn of(run: &Config, mode: &Mode) -> Self {
+        let method = run.methods[0];
+        // A method without lists assigns nothing.
+        let assigner = if method.has_lists() { mode.assigner } else { Assigner::Brute };
+        Self { method, assigner, clusters: run.clusters[0], test: run.test[0].of(&method) }
+    }
+
+    /// What its shaders are specialised for.
+    pub fn variant(&self, run: &Config, mode: &Mode) -> Variant {
+        let kind = self.method.kind();
+        Variant {
+            lookup: kind.lookup,
+            cells: kind.cells,
+            sharing: kind.sharing,
+            clusters: self.clusters,
+            samples: run.msaa,
+            culling: run.culling,
+            multiview: run.multiview,
+            marking: run.marking,
+            assigner: self.assigner,
+            test: self.test,
+            lights_at_once: lights_at_once(self.method.has_lists(), mode.lights),
+            attenuation: run.attenuation,
+            counting: mode.counting,
+        }
+    }
+
+    /// How large its buffers are.
+    pub fn sizes(&self, run: &Config, largest: LargestGrid, mode: &Mode) -> ClusteringSizes {
+        let LargestGrid { clusters, slice_planes } = largest;
+        ClusteringSizes {
+            clusters,
+            listed: self.clusters,
+            slice_planes,
+            lights: mode.lights,
+            capacities: self.capacities(clusters, mode.capacities),
+            assigner: self.assigner,
+            counting: mode.counting,
+            pixels: u64::from(run.resolution[0]) * u64::from(run.resolution[1]),
+        }
+    }
+
+    /// What the buffers hold at first: nothing without lists, every cluster where all have lists.
+    fn capacities(&self, clusters: u64, first: Capacities) -> Capacities {
+        let all = u32::try_from(clusters).unwrap_or(u32::MAX);
+        match (self.method.has_lists(), self.clusters) {
+            (false, _) => Capacities { visible_clusters: 0, light_indices: 0 },
+            (true, Clusters::Visible) => first,
+            (true, Clusters::All) => Capacities { visible_clusters: all, ..first },
+        }
+    }
+}
+
+/// What the shaders of a run are specialised for; its configuration has one value on every axis.
+pub fn variant(run: &Config, mode: &Mode) -> Variant {
+    Chosen::of(run, mode).variant(run, mode)
+}

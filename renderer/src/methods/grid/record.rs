@@ -1,0 +1,63 @@
+//! The passes of a method of grids: from depth to visible clusters to light lists, clustering by clustering.
+//!
+//! ```text
+//! Depth ──mark, compact──> VisibleClusters ─┐
+//! (all clusters) ──list_clusters────────────┤
+//! Lights ──transform, cull, build───────────┴──count, offsets, assign──> LightLists
+//! ```
+
+use crate::assign::{Assigner, Clusters};
+use crate::pass::Recorder;
+use crate::passes::{
+    Depth, Frame, LightLists, Lights, VisibleClusters, assign, cull_lights, depth, hierarchy, list_clusters,
+    mark, scan,
+};
+
+/// Records all clusterings; the depth that comes back is what marking needed of it.
+pub fn record(r: &mut Recorder, frame: &Frame, lights: Lights) -> (Depth, LightLists) {
+    let mut made = (Depth::NONE, LightLists::NONE);
+    for clustering in 0..frame.clusterings.len() {
+        r.scope(("cluster", clustering), |r| {
+            let (depth, visible) = match frame.clusters {
+                Clusters::Visible => visible_clusters(r, frame, clustering, made.0),
+                Clusters::All => (made.0, list_clusters::record(r, frame, clustering)),
+            };
+            made = (depth, made.1 | light_lists(r, frame, lights, visible));
+        });
+    }
+    made
+}
+
+/// The prepass of the clustering's views, where it is not there yet, and the clusters that hold something of what it shows.
+fn visible_clusters(
+    r: &mut Recorder,
+    frame: &Frame,
+    clustering: usize,
+    mut depth: Depth,
+) -> (Depth, VisibleClusters) {
+    let views = frame.clusterings[clustering].views.clone();
+    for eyes in frame.eyes_of(views.clone()) {
+        if !depth.covers(frame, eyes) {
+            depth = depth | depth::record(r, frame, eyes);
+        }
+    }
+    for view in views {
+        mark::record(r, frame, (clustering, view), depth);
+    }
+    (depth, scan::compact(r, frame, clustering))
+}
+
+/// The light lists of the visible clusters.
+pub fn light_lists(r: &mut Recorder, frame: &Frame, lights: Lights, visible: VisibleClusters) -> LightLists {
+    match frame.assigner {
+        Assigner::Brute => assign::transform_lights(r, frame, lights, visible),
+        Assigner::Hierarchy => {
+            cull_lights::cull_lights(r, frame, lights, visible);
+            hierarchy::build_hierarchy(r, frame, visible);
+        }
+        Assigner::Scatter => cull_lights::cull_lights(r, frame, lights, visible),
+    }
+    assign::count_lights(r, frame, visible);
+    scan::light_offsets(r, frame, visible);
+    assign::assign_lights(r, frame, visible)
+}

@@ -1,0 +1,186 @@
+//! The one table of methods.
+
+use super::grid::{GridMethod, Space};
+use super::{Method, Sharing};
+use crate::geometry::CellShape;
+
+/// A kind of method: what is behind a name but for the sizes.
+#[derive(Debug)]
+pub struct Kind {
+    /// The name without sizes.
+    pub name: &'static str,
+    /// What the numbers behind the name are, in order.
+    pub sizes: &'static [&'static str],
+    /// The sizes that its paper finds best, or that are usual.
+    pub tuned: &'static [f64],
+    /// As figures call it.
+    pub title: &'static str,
+    /// What it does, a line for help and README.
+    pub about: &'static str,
+    /// How views share its groups.
+    pub sharing: Sharing,
+    /// How shading walks a list: a file in `shaders-glsl/lookup`.
+    pub lookup: &'static str,
+    /// What its cells look like, which says what they are tested by; `None` where there are neither cells nor lists.
+    pub cells: Option<CellShape>,
+    make: fn(&[f64]) -> Method,
+}
+
+/// Every kind of method. All serve transparent geometry, all views in stereo, and any number of samples.
+pub static KINDS: [Kind; 8] = [
+    Kind {
+        name: "indi-persp",
+        sizes: &["PIXELS"],
+        tuned: &[64.0],
+        title: "Indi Persp",
+        about: "a perspective grid for each view",
+        sharing: Sharing::Indi,
+        lookup: "clustered",
+        cells: Some(CellShape::Frustum),
+        make: |sizes| Method::grid(Sharing::Indi, Space::Persp { pixels: sizes[0] }),
+    },
+    Kind {
+        name: "encl-persp",
+        sizes: &["PIXELS"],
+        tuned: &[64.0],
+        title: "Encl Persp",
+        about: "one perspective grid on the frustum that encloses all views",
+        sharing: Sharing::Encl,
+        lookup: "clustered",
+        cells: Some(CellShape::Frustum),
+        make: |sizes| Method::grid(Sharing::Encl, Space::Persp { pixels: sizes[0] }),
+    },
+    Kind {
+        name: "indi-ortho",
+        sizes: &["METRES"],
+        tuned: &[4.0],
+        title: "Indi Ortho",
+        about: "a grid of boxes for each view",
+        sharing: Sharing::Indi,
+        lookup: "clustered",
+        cells: Some(CellShape::Box),
+        make: |sizes| Method::grid(Sharing::Indi, Space::Ortho { metres: sizes[0] }),
+    },
+    Kind {
+        name: "encl-ortho",
+        sizes: &["METRES"],
+        tuned: &[4.0],
+        title: "Encl Ortho",
+        about: "one grid of boxes around all views",
+        sharing: Sharing::Encl,
+        lookup: "clustered",
+        cells: Some(CellShape::Box),
+        make: |sizes| Method::grid(Sharing::Encl, Space::Ortho { metres: sizes[0] }),
+    },
+    Kind {
+        name: "indi-displ",
+        sizes: &["PIXELS", "METRES"],
+        tuned: &[64.0, 32.0],
+        title: "Indi Displ",
+        about: "a perspective grid for each view, its apex moved back",
+        sharing: Sharing::Indi,
+        lookup: "clustered",
+        cells: Some(CellShape::Frustum),
+        make: |sizes| displ(Sharing::Indi, sizes),
+    },
+    Kind {
+        name: "encl-displ",
+        sizes: &["PIXELS", "METRES"],
+        tuned: &[64.0, 32.0],
+        title: "Encl Displ",
+        about: "one perspective grid on the frustum that encloses all views, its apex moved back",
+        sharing: Sharing::Encl,
+        lookup: "clustered",
+        cells: Some(CellShape::Frustum),
+        make: |sizes| displ(Sharing::Encl, sizes),
+    },
+    Kind {
+        name: "tiled",
+        sizes: &["PIXELS"],
+        tuned: &[16.0],
+        title: "Tiled",
+        about: "tiles of each view's screen, from the near to the far plane",
+        sharing: Sharing::Indi,
+        lookup: "clustered",
+        cells: Some(CellShape::Frustum),
+        make: |sizes| Method::grid(Sharing::Indi, Space::Tiled { pixels: sizes[0] }),
+    },
+    Kind {
+        name: "all-lights",
+        sizes: &[],
+        tuned: &[],
+        title: "All lights",
+        about: "every light for every fragment: the truth",
+        sharing: Sharing::Encl,
+        lookup: "all_lights",
+        cells: None,
+        make: |_| Method::AllLights,
+    },
+];
+
+fn displ(sharing: Sharing, sizes: &[f64]) -> Method {
+    Method::grid(sharing, Space::Displ { pixels: sizes[0], displacement: sizes[1] })
+}
+
+impl Kind {
+    /// The method with these sizes, as many as [`Self::sizes`] names.
+    pub fn with_sizes(&self, sizes: &[f64]) -> Method {
+        (self.make)(sizes)
+    }
+
+    /// The method with the tuned sizes.
+    pub fn tuned(&self) -> Method {
+        self.with_sizes(self.tuned)
+    }
+
+    /// The name with what its numbers stand for: `indi-displ-PIXELS-METRES`.
+    pub fn pattern(&self) -> String {
+        [self.name].iter().chain(self.sizes).copied().collect::<Vec<_>>().join("-")
+    }
+}
+
+impl Method {
+    /// What kind it is.
+    pub fn kind(&self) -> &'static Kind {
+        KINDS.iter().find(|kind| kind.tuned().is_like(self)).expect("the table has every kind of method")
+    }
+
+    /// Its sizes, in the order of its name.
+    pub fn sizes(&self) -> Vec<f64> {
+        match self {
+            Self::AllLights => vec![],
+            Self::Grid(GridMethod { space, .. }) => space.sizes(),
+        }
+    }
+
+    /// Whether it builds light lists for cells of a grid.
+    pub fn has_lists(&self) -> bool {
+        self.kind().cells.is_some()
+    }
+
+    /// Whether the two differ in their sizes alone.
+    fn is_like(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::AllLights, Self::AllLights) => true,
+            (Self::Grid(a), Self::Grid(b)) => a.is_like(b),
+            (Self::AllLights | Self::Grid(_), _) => false,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_is_its_own() {
+        for kind in &KINDS {
+            let method = kind.tuned();
+            assert_eq!(method.kind().name, kind.name);
+            assert_eq!((kind.sizes.len(), method.sizes().as_slice()), (kind.tuned.len(), kind.tuned));
+            if let Method::Grid(grid) = method {
+                assert_eq!((grid.sharing, Some(grid.space.shape())), (kind.sharing, kind.cells));
+            }
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! A method's name: the name of its kind and its sizes, as plain decimal numbers: `indi-persp-64`, `encl-ortho-0.5`,
+//! `indi-displ-64-32`, `tiled-16`, `all-lights`.
+
+use super::{KINDS, Kind, Method};
+use crate::{Error, Result};
+use std::fmt;
+use std::str::FromStr;
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.kind().name)?;
+        self.sizes().iter().try_for_each(|size| write!(f, "-{size}"))
+    }
+}
+
+impl FromStr for Method {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Self> {
+        parse(name).ok_or_else(|| {
+            let patterns = KINDS.iter().map(Kind::pattern).collect::<Vec<_>>().join(", ");
+            let nearest = nearest(name);
+            Error::input(format!(
+                "method '{name}' is not known: use one of {patterns}, with sizes above 0; did you mean '{nearest}'?"
+            ))
+        })
+    }
+}
+
+fn parse(name: &str) -> Option<Method> {
+    KINDS.iter().find_map(|kind| {
+        let rest = name.strip_prefix(kind.name)?;
+        let mut parts = rest.split('-');
+        let sizes: Option<Vec<f64>> = parts.next()?.is_empty().then(|| parts.map(size).collect())?;
+        sizes.filter(|sizes| sizes.len() == kind.sizes.len()).map(|sizes| kind.with_sizes(&sizes))
+    })
+}
+
+/// A plain decimal number above 0: digits and at most one point, no sign, no exponent.
+fn size(text: &str) -> Option<f64> {
+    let plain = text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
+    let value: f64 = if plain { text.parse().ok()? } else { return None };
+    (value > 0.0 && value.is_finite()).then_some(value)
+}
+
+/// The valid name nearest to `name`, with its sizes where they fit.
+fn nearest(name: &str) -> String {
+    let (words, sizes): (Vec<&str>, Vec<&str>) = name.split('-').partition(|part| size(part).is_none());
+    let word = words.join("-").to_ascii_lowercase();
+    let distance = |kind: &&Kind| strsim::damerau_levenshtein(kind.name, &word);
+    let kind = KINDS.iter().min_by_key(distance).unwrap_or(&KINDS[0]);
+    let own_sizes = format!("{}-{}", kind.name, sizes.join("-"));
+    parse(&own_sizes).unwrap_or_else(|| kind.tuned()).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::methods::{Sharing, Space};
+    use proptest::prelude::*;
+
+    #[test]
+    fn names_read_and_print_the_same() {
+        for name in ["indi-ortho-0.5", "encl-displ-16-0.25", "tiled-12.5", "all-lights"] {
+            assert_eq!(name.parse::<Method>().unwrap().to_string(), name);
+        }
+        assert_eq!("indi-persp-64.0".parse::<Method>().unwrap().to_string(), "indi-persp-64");
+    }
+
+    #[test]
+    fn a_wrong_name_is_answered_with_the_nearest_valid_one() {
+        for (wrong, right) in [
+            ("indi-prsp-32", "'indi-persp-32'"),
+            ("encl-orto-2.5", "'encl-ortho-2.5'"),
+            ("encl-displ-64", "'encl-displ-64-32'"),
+            ("indi-persp", "'indi-persp-64'"),
+            ("indi-persp-0", "'indi-persp-64'"),
+            ("indi-persp-nan", "'indi-persp-64'"),
+            ("indi-ortho-1e3", "'indi-ortho-4'"),
+            ("indi-ortho--4", "'indi-ortho-4'"),
+            ("indi-persp-64-32", "'indi-persp-64'"),
+            ("Encl-Displ-8-2", "'encl-displ-8-2'"),
+            ("all-light", "'all-lights'"),
+            ("tile-8", "'tiled-8'"),
+            ("tiled-8-2", "'tiled-16'"),
+            ("", "did you mean"),
+        ] {
+            let message = wrong.parse::<Method>().unwrap_err().to_string();
+            assert!(message.contains(right) && message.contains("displ-PIXELS-METRES"), "{message}");
+            assert!(!message.contains('\n'));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn any_sizes_survive_the_round_trip(a in 1e-6..1e6f64, b in 1e-6..1e6f64, encl: bool, kind in 0..3) {
+            let sharing = if encl { Sharing::Encl } else { Sharing::Indi };
+            let space = match kind {
+                0 => Space::Persp { pixels: a },
+                1 => Space::Ortho { metres: a },
+                _ => Space::Displ { pixels: a, displacement: b },
+            };
+            let spec = Method::grid(sharing, space);
+            prop_assert_eq!(spec.to_string().parse::<Method>().unwrap(), spec);
+        }
+    }
+}

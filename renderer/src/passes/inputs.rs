@@ -1,0 +1,200 @@
+//! What a frame is recorded from.
+
+use crate::assign::{Assigner, Clusters, Marking};
+use crate::clustering::Clustering;
+use crate::draw_list::DrawList;
+use crate::draw_slots::{DrawSlots, SlotOrder};
+use crate::geometry::Sharing;
+use crate::gpu_scene::GpuScene;
+use crate::layouts::BoundBuffers;
+use crate::pass::{DepthImage, ScopeName};
+use crate::pipelines::Pipelines;
+use crate::vk::{Buffer, Image};
+use ash::vk;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// One layer of an image. With multiview a view is a layer of an image that all views share; else it has its own image.
+pub struct Layer {
+    /// All layers.
+    pub image: Arc<Image>,
+    /// Which of them.
+    pub index: u32,
+    /// It alone.
+    pub view: vk::ImageView,
+}
+
+impl Layer {
+    /// Its colour, for copies.
+    pub fn color(&self) -> (vk::Image, vk::ImageSubresourceLayers) {
+        let layers = vk::ImageSubresourceLayers::default().aspect_mask(vk::ImageAspectFlags::COLOR);
+        (self.image.handle, layers.base_array_layer(self.index).layer_count(1))
+    }
+}
+
+/// The views that a geometry pass draws at once.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Eyes {
+    /// One view.
+    One(usize),
+    /// All, each into its layer.
+    All,
+}
+
+impl Eyes {
+    /// The name of their stage: `depth[0]`, or `depth` for all.
+    pub fn stage(self, stem: &'static str) -> ScopeName {
+        match self {
+            Self::One(view) => (stem, view).into(),
+            Self::All => stem.into(),
+        }
+    }
+
+    /// The view by which shared data is found.
+    pub fn first(self) -> usize {
+        match self {
+            Self::One(view) => view,
+            Self::All => 0,
+        }
+    }
+}
+
+/// What a view is rendered into.
+pub struct ViewTargets {
+    /// Reversed depth.
+    pub depth: Layer,
+    /// Linear HDR colour, with all its samples.
+    pub color: Layer,
+    /// Colour with one sample; `None` where `color` has no more.
+    pub resolved: Option<Layer>,
+    /// `depth`, for compute shaders.
+    pub depth_set: vk::DescriptorSet,
+}
+
+impl ViewTargets {
+    /// Its depth, as compute shaders sample it.
+    pub fn depth_image(&self) -> DepthImage {
+        DepthImage { image: self.depth.image.handle, set: self.depth_set }
+    }
+}
+
+/// What stage `cull` fills, a part for each view and one for all at once; shared by the frames in flight.
+pub struct DrawBuffers {
+    /// [`crate::gpu_interface::DrawCommand`], as many in each part as there are slots.
+    pub commands: Buffer,
+    /// Instances that the commands draw.
+    pub drawn_instances: Buffer,
+}
+
+/// What the views draw of the scene.
+pub enum Draws<'a> {
+    /// What the host let through, a list for each view and one for all at once.
+    Listed(&'a [DrawList]),
+    /// Everything, by commands that stage `cull` fills, as many lists.
+    Indirect {
+        /// The scene's.
+        slots: &'a DrawSlots,
+        /// An order for each view.
+        orders: &'a [SlotOrder],
+        /// The commands.
+        buffers: &'a DrawBuffers,
+    },
+}
+
+/// Everything one frame is recorded from. All of it stays as it is until the frame has ended.
+pub struct Frame<'a> {
+    /// Pipelines of the method.
+    pub pipelines: &'a Pipelines,
+    /// What is drawn.
+    pub scene: &'a GpuScene,
+    /// What each view draws of it.
+    pub draws: Draws<'a>,
+    /// What each view is rendered into.
+    pub targets: &'a [ViewTargets],
+    /// Of each view, whether it sees the world in a mirror.
+    pub mirrored: &'a [bool],
+    /// The clusterings; for a method without, one that holds every view and no grid.
+    pub clusterings: &'a [Clustering],
+    /// How the views share the clusterings.
+    pub sharing: Sharing,
+    /// Whether geometry passes draw all views at once.
+    pub multiview: bool,
+    /// Which clusters get lists.
+    pub clusters: Clusters,
+    /// Where visible clusters are marked from.
+    pub marking: Marking,
+    /// How the light lists are built.
+    pub assigner: Assigner,
+    /// Whether views are shaded; else the frame ends with the light lists.
+    pub shaded: bool,
+    /// The lights on the device.
+    pub lights: &'a Buffer,
+    /// The lights as the host wrote them.
+    pub light_staging: &'a Buffer,
+    /// Whether those on the device are others yet.
+    pub lights_changed: bool,
+    /// How many lights there are.
+    pub light_count: u32,
+    /// Where the host finds each clustering's state.
+    pub states: &'a Buffer,
+    /// Width and height of each view, pixels.
+    pub resolution: [u32; 2],
+    /// Which of the frames in flight this is.
+    pub slot: usize,
+}
+
+impl Frame<'_> {
+    /// The buffers of a clustering.
+    pub fn buffers(&self, clustering: usize) -> BoundBuffers<'_> {
+        self.clusterings[clustering].bound(self.slot)
+    }
+
+    /// The buffers of the clustering in which a view looks its lights up.
+    pub fn buffers_of_view(&self, view: usize) -> BoundBuffers<'_> {
+        self.buffers(self.sharing.clustering_of(view))
+    }
+
+    /// All views, as geometry passes draw them.
+    pub fn eyes(&self) -> impl Iterator<Item = Eyes> + use<> {
+        self.eyes_of(0..self.targets.len())
+    }
+
+    /// Some views, as geometry passes draw them: with multiview, all at once.
+    pub fn eyes_of(&self, views: Range<usize>) -> impl Iterator<Item = Eyes> + use<> {
+        let multiview = self.multiview;
+        let passes = if multiview { 0..1 } else { views };
+        passes.map(move |view| if multiview { Eyes::All } else { Eyes::One(view) })
+    }
+
+    /// The views of a frame, as shading draws them: at once only where all look lights up in one clustering, for a pass
+    /// binds the buffers of one.
+    pub fn shaded_eyes(&self) -> impl Iterator<Item = Eyes> + use<> {
+        let at_once = self.multiview && self.clusterings.len() == 1;
+        let passes = if at_once { 1 } else { self.targets.len() };
+        (0..passes).map(move |view| if at_once { Eyes::All } else { Eyes::One(view) })
+    }
+
+    /// Whether a pass draws a view in a mirror, or, with `mirrored` false, one that is not.
+    pub fn any_mirrored(&self, eyes: Eyes, mirrored: bool) -> bool {
+        match eyes {
+            Eyes::One(view) => self.mirrored[view] == mirrored,
+            Eyes::All => self.mirrored.contains(&mirrored),
+        }
+    }
+
+    /// How many views a pass draws.
+    pub fn view_count(&self, eyes: Eyes) -> u32 {
+        match eyes {
+            Eyes::One(_) => 1,
+            Eyes::All => self.targets.len() as u32,
+        }
+    }
+
+    /// Which of the draw lists is for `eyes`: those of single views, then that of all at once.
+    pub fn list_of(&self, eyes: Eyes) -> usize {
+        match eyes {
+            Eyes::One(view) => view,
+            Eyes::All => self.targets.len(),
+        }
+    }
+}
