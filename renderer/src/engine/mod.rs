@@ -5,6 +5,7 @@ mod counted;
 mod plan;
 mod requirements;
 mod session;
+mod targets;
 
 pub use counted::Counted;
 pub use plan::{FramePlan, plan_frames};

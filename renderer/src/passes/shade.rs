@@ -7,6 +7,7 @@ use crate::buffers::{BufferName as B, set};
 use crate::draw_list::SurfaceKind;
 use crate::frame::{Eyes, Frame};
 use crate::pass::Recorder;
+use crate::targets::TargetName;
 
 /// What is seen where nothing was drawn: a dim night sky, linear, that covers nothing.
 pub const BACKGROUND: [f32; 4] = [0.004, 0.006, 0.012, 0.0];
@@ -30,9 +31,10 @@ pub fn record(r: &mut Recorder, frame: &Frame, eyes: Eyes) {
 
 fn surfaces(r: &mut Recorder, frame: &Frame, eyes: Eyes, kind: SurfaceKind) {
     let first = kind == SurfaceKind::Opaque;
+    let radiance = if first { ColorUse::Clear(BACKGROUND) } else { ColorUse::Keep };
     let pass = SurfacePass {
         eyes,
-        color: Some(if first { ColorUse::Clear(BACKGROUND) } else { ColorUse::Keep }),
+        colors: &[(TargetName::Radiance, radiance)],
         depth: DepthUse::Test,
         draws: &[(kind, SurfacePipelines::ByTextures(&frame.pipelines.shade[kind as usize]))],
         reads: set(&[B::Lights, B::ClusterBits, B::WordRanks, B::ListOffsets, B::LightIndices]),
