@@ -159,14 +159,9 @@ impl Attached<'_> {
             return;
         }
         for pipeline in pipelines {
-            let (drawn, attached) = (pipeline.targets.iter(), self.colors.iter().map(|(name, _)| name));
-            assert!(
-                drawn.eq(attached),
-                "{}: draws into {:?}, its pass into {:?}",
-                pipeline.name,
-                pipeline.targets,
-                self.colors
-            );
+            let attached: Vec<_> = self.colors.iter().map(|color| color.0).collect();
+            let (name, drawn) = (&pipeline.name, pipeline.targets);
+            assert!(drawn == attached, "{name}: draws into {drawn:?}, its pass into {attached:?}");
         }
     }
 
