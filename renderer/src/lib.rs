@@ -46,6 +46,7 @@ pub mod report;
 pub mod scene;
 pub mod still;
 pub mod sweep;
+pub mod targets;
 mod text;
 pub mod texture_sets;
 pub mod vk;

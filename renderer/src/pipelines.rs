@@ -3,11 +3,13 @@
 //! A variant is data: defines and specialization constants. Pipelines that several methods share are made once.
 
 mod debug;
+mod graphics;
 mod variant;
 
 pub use debug::{DebugPipelines, Line, SPHERE_VERTICES};
 pub use variant::{Variant, lights_at_once};
 
+use graphics::Output;
 use variant::Defines;
 
 use crate::Result;
@@ -16,18 +18,11 @@ use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
 use crate::geometry::views::ViewSet;
 use crate::layouts::{Layouts, Pipeline, PipelineLayout};
-use crate::scene::{TextureSlot, Vertex};
 use crate::texture_sets::TextureSet;
-use crate::vk::{self as gpu, Context, GraphicsDesc, ShaderLibrary};
+use crate::vk::{self as gpu, Context, ShaderLibrary};
 use ash::vk;
 use std::collections::{BTreeMap, BTreeSet};
-use std::mem::offset_of;
 use std::sync::Arc;
-
-/// Format of every view's depth.
-pub const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
-/// Format of every view's colour: linear HDR.
-pub const COLOR_FORMAT: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
 
 /// The three dispatches of a prefix sum, and the one that does without them.
 pub struct ScanPipelines {
@@ -147,19 +142,6 @@ pub struct PipelineStore {
     made: BTreeMap<String, Arc<Pipeline>>,
     /// Those asked for since [`Self::take_asked`], by their numbers.
     asked: BTreeMap<usize, Arc<Pipeline>>,
-}
-
-/// How a graphics pipeline uses depth and colour.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Output {
-    /// Writes depth.
-    Depth,
-    /// Tests depth; marks clusters.
-    Marks(SurfaceKind),
-    /// Tests depth; counts fragments of clusters.
-    Counts(SurfaceKind),
-    /// Tests depth; writes colour, of which these textures are a part.
-    Shades(SurfaceKind, TextureSet),
 }
 
 impl PipelineStore {
@@ -325,128 +307,4 @@ impl PipelineStore {
             Ok(Pipeline::new(pipeline, layout, path, number))
         })
     }
-
-    /// A graphics pipeline, whose `desc` has its shaders already.
-    fn rasterizing(&self, desc: &GraphicsDesc, name: &str, number: usize) -> Result<Pipeline> {
-        let vertex = (vk::ShaderStageFlags::VERTEX, desc.vertex);
-        let fragment = desc.fragment.map(|words| (vk::ShaderStageFlags::FRAGMENT, words));
-        let stages: Vec<_> = [vertex].into_iter().chain(fragment).collect();
-        let layout = PipelineLayout::new(&self.context, &self.layouts, name, &stages)?;
-        let pipeline = gpu::graphics_pipeline(&self.context, layout.handle, desc, name)?;
-        Ok(Pipeline::new(pipeline, layout, name, number))
-    }
-
-    fn graphics(
-        &mut self,
-        variant: &Variant,
-        fragment: Option<&str>,
-        output: Output,
-    ) -> Result<Arc<Pipeline>> {
-        let at_once = self.views.count > 1 && variant.draws_all_views(output);
-        let views = if at_once { self.views.count } else { 0 };
-        let defines = graphics_defines(variant, fragment.is_some(), output)
-            .with("VIEWS", views)
-            .with("MIRRORS", u32::from(self.views.mirrors));
-        let key = format!("{fragment:?} {output:?} {:?} {defines:?}", variant.attenuation);
-        self.once(key, |store, number| {
-            let vertex = store.shaders.compile("geometry/surface.vert", &defines.0)?;
-            let code = fragment.map(|path| store.shaders.compile(path, &defines.0)).transpose()?;
-            let attributes =
-                vertex_attributes(varyings(fragment.is_some(), output), textures(fragment.is_some(), output));
-            let spec = [(0, variant.attenuation as u32)];
-            let shades = matches!(output, Output::Shades(..));
-            let desc = GraphicsDesc {
-                vertex: &vertex,
-                fragment: code.as_deref().map(Vec::as_slice),
-                spec: if shades { &spec } else { &[] },
-                bindings: &[vk::VertexInputBindingDescription {
-                    binding: 0,
-                    stride: size_of::<Vertex>() as u32,
-                    input_rate: vk::VertexInputRate::VERTEX,
-                }],
-                attributes: &attributes,
-                dynamic_facing: true,
-                depth_write: output == Output::Depth,
-                depth_compare: Some(depth_compare(output)),
-                depth_format: Some(DEPTH_FORMAT),
-                color_format: shades.then_some(COLOR_FORMAT),
-                blend: matches!(output, Output::Shades(SurfaceKind::Transparent, _)),
-                samples: vk::SampleCountFlags::from_raw(variant.samples),
-                sample_shading: variant.per_sample() && output != Output::Depth,
-                ..Default::default()
-            };
-            store.rasterizing(&desc, fragment.unwrap_or("geometry/surface.vert"), number)
-        })
-    }
-}
-
-fn graphics_defines(variant: &Variant, textured: bool, output: Output) -> Defines {
-    let culling = match variant.culling {
-        Culling::Cpu => "CULLING_CPU",
-        Culling::Gpu => "CULLING_GPU",
-    };
-    let defines = variant
-        .defines()
-        .with("CULLING", culling)
-        .with("VARYINGS", varyings(textured, output))
-        .with("TEXTURES", textures(textured, output).bits());
-    match output {
-        Output::Depth => defines,
-        Output::Marks(_) => defines.with("COUNT_FRAGMENTS", 0),
-        Output::Counts(_) => defines.with("COUNT_FRAGMENTS", 1),
-        Output::Shades(kind, _) => defines
-            .with("TRANSPARENT", u32::from(kind == SurfaceKind::Transparent))
-            .with("LIGHTS_AT_ONCE", variant.lights_at_once),
-    }
-}
-
-/// What the vertex shader hands on: 0 nothing, 1 for the alpha test, 2 for shading.
-fn varyings(textured: bool, output: Output) -> u32 {
-    match output {
-        Output::Depth => u32::from(textured),
-        Output::Marks(_) | Output::Counts(_) => 0,
-        Output::Shades(..) => 2,
-    }
-}
-
-/// The textures that a pipeline samples.
-fn textures(textured: bool, output: Output) -> TextureSet {
-    match output {
-        Output::Depth if textured => TextureSet::BASE_COLOR,
-        Output::Depth | Output::Marks(_) | Output::Counts(_) => TextureSet::NONE,
-        Output::Shades(_, set) => set,
-    }
-}
-
-/// Depth is reversed; what the prepass drew is found again by equality, what is transparent lies before it.
-fn depth_compare(output: Output) -> vk::CompareOp {
-    match output {
-        Output::Depth => vk::CompareOp::GREATER,
-        Output::Marks(kind) | Output::Counts(kind) | Output::Shades(kind, _) => match kind {
-            SurfaceKind::Transparent => vk::CompareOp::GREATER_OR_EQUAL,
-            SurfaceKind::Opaque | SurfaceKind::Masked => vk::CompareOp::EQUAL,
-        },
-    }
-}
-
-fn vertex_attributes(varyings: u32, textures: TextureSet) -> Vec<vk::VertexInputAttributeDescription> {
-    use vk::Format as F;
-    let (uv, tangent) = (textures != TextureSet::NONE, textures.has(TextureSlot::Normal));
-    let all = [
-        (0, true, F::R32G32B32_SFLOAT, offset_of!(Vertex, position)),
-        (1, varyings >= 2, F::R32G32B32_SFLOAT, offset_of!(Vertex, normal)),
-        (2, varyings >= 2 && tangent, F::R32G32B32A32_SFLOAT, offset_of!(Vertex, tangent)),
-        (3, varyings >= 1 && uv, F::R32G32_SFLOAT, offset_of!(Vertex, uv)),
-        (4, varyings >= 1 && uv, F::R32G32_SFLOAT, offset_of!(Vertex, uv) + size_of::<[f32; 2]>()),
-        (5, varyings >= 1, F::R8G8B8A8_UNORM, offset_of!(Vertex, color)),
-    ];
-    all.into_iter()
-        .filter(|&(_, needed, ..)| needed)
-        .map(|(location, _, format, offset)| vk::VertexInputAttributeDescription {
-            location,
-            binding: 0,
-            format,
-            offset: offset as u32,
-        })
-        .collect()
 }

@@ -1,16 +1,9 @@
 // Cook-Torrance: GGX distribution, Smith-Schlick geometry, Fresnel-Schlick; metallic-roughness parameters.
 #pragma once
 
-const float PI = 3.14159265358979;
+#include "lib/surface.glsl"
 
-struct Surface {
-    vec3 position;  // world
-    vec3 normal;    // world, unit, on the viewer's side
-    vec3 to_viewer; // world, unit
-    vec3 diffuse;   // base colour of the dielectric part
-    vec3 f0;        // reflectance at normal incidence
-    float alpha;    // squared perceptual roughness
-};
+const float PI = 3.14159265358979;
 
 // Outgoing radiance per incident irradiance times n.l, for unit `to_light`.
 vec3 reflected(Surface surface, vec3 to_light)

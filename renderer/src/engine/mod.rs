@@ -17,6 +17,7 @@ mod plan;
 mod requirements;
 mod session;
 mod slot;
+mod targets;
 
 pub use count::{COUNTING_SLOT, CountedFrame, count_frame};
 pub use counted::Counted;

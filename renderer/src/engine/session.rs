@@ -2,6 +2,7 @@
 
 use super::Slot;
 use super::requirements::check_device;
+use super::targets::make_targets;
 use crate::buffers::BufferName;
 use crate::clustering::{SLOTS, make_buffer};
 use crate::config::Config;
@@ -12,13 +13,12 @@ use crate::gpu_interface::{DrawCommand, DrawCounts, MAX_VIEWS};
 use crate::gpu_scene::GpuScene;
 use crate::layouts::{DEPTH_SET, DescriptorSets, Layouts};
 use crate::pass::FrameTracker;
-use crate::passes::{DrawBuffers, Layer, ViewTargets};
-use crate::pipelines::{COLOR_FORMAT, DEPTH_FORMAT, PipelineStore};
+use crate::passes::{DrawBuffers, ViewTargets};
+use crate::pipelines::PipelineStore;
 use crate::scene::Scene;
 use crate::texture_sets::drawn_sets;
-use crate::vk::{Context, DeviceOptions, Image, ImageDesc, Memory, ShaderLibrary};
+use crate::vk::{Context, DeviceOptions, Memory, ShaderLibrary};
 use crate::{Error, Result, buffers, gpu_interface};
-use ash::vk;
 use std::sync::Arc;
 
 /// Device, scene, targets and frames in flight of a replay.
@@ -59,13 +59,12 @@ impl Session {
         let draw_slots = DrawSlots::new(&batches);
         let gpu_scene = GpuScene::new(&context, &layouts, scene, (&batches, &draw_slots))?;
         let depth_sets = DescriptorSets::new(&context, "depth", layouts.depth, &DEPTH_SET, views)?;
-        let targets = targets(&context, config, &depth_sets.sets)?;
         Ok(Self {
             slots: [
                 Slot::new(&context, views, draw_slots.counts)?,
                 Slot::new(&context, views, draw_slots.counts)?,
             ],
-            targets,
+            targets: make_targets(&context, config, &depth_sets.sets)?,
             _depth_sets: depth_sets,
             scene: gpu_scene,
             batches,
@@ -113,66 +112,4 @@ fn check_resolution(context: &Context, [width, height]: [u32; 2]) -> Result<()> 
         )));
     }
     Ok(())
-}
-
-/// A target for each view, which `depth_sets` name: images of its own, or with multiview layers of shared ones.
-fn targets(
-    context: &Arc<Context>,
-    config: &Config,
-    depth_sets: &[vk::DescriptorSet],
-) -> Result<Vec<ViewTargets>> {
-    if config.multiview {
-        return layered_targets(context, config, "", depth_sets);
-    }
-    let sets = depth_sets.chunks(1).enumerate();
-    let own = sets.map(|(view, set)| layered_targets(context, config, &format!("[{view}]"), set));
-    Ok(own.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect())
-}
-
-/// Targets that are the layers of one image each of depth, colour and resolved colour.
-fn layered_targets(
-    context: &Arc<Context>,
-    config: &Config,
-    suffix: &str,
-    depth_sets: &[vk::DescriptorSet],
-) -> Result<Vec<ViewTargets>> {
-    use vk::ImageUsageFlags as U;
-    let [width, height] = config.resolution;
-    let image = |name: &str, format, samples: u32, usage, aspect| {
-        let (layers, samples) = (depth_sets.len() as u32, vk::SampleCountFlags::from_raw(samples));
-        let desc = ImageDesc { width, height, mip_levels: 1, layers, format, samples, usage, aspect };
-        Image::new(context, &format!("{name}{suffix}"), desc).map(Arc::new)
-    };
-    let depth_usage = U::DEPTH_STENCIL_ATTACHMENT | U::SAMPLED;
-    let depth = image("depth", DEPTH_FORMAT, config.msaa, depth_usage, vk::ImageAspectFlags::DEPTH)?;
-    let color_usage = U::COLOR_ATTACHMENT | U::TRANSFER_SRC;
-    let color = image("color", COLOR_FORMAT, config.msaa, color_usage, vk::ImageAspectFlags::COLOR)?;
-    // An image view needs a use that may have one.
-    let resolved_usage = U::TRANSFER_SRC | U::TRANSFER_DST | U::SAMPLED;
-    let resolved = (config.msaa > 1)
-        .then(|| image("resolved", COLOR_FORMAT, 1, resolved_usage, vk::ImageAspectFlags::COLOR))
-        .transpose()?;
-    let layer = |image: &Arc<Image>, index: usize| Layer {
-        image: image.clone(),
-        index: index as u32,
-        view: image.layer_views[index],
-    };
-    let target = |(index, &depth_set): (usize, &vk::DescriptorSet)| {
-        let depth = layer(&depth, index);
-        write_depth_set(context, depth_set, depth.view);
-        let resolved = resolved.as_ref().map(|image| layer(image, index));
-        ViewTargets { depth, color: layer(&color, index), resolved, depth_set }
-    };
-    Ok(depth_sets.iter().enumerate().map(target).collect())
-}
-
-fn write_depth_set(context: &Context, set: vk::DescriptorSet, view: vk::ImageView) {
-    let info = [vk::DescriptorImageInfo::default()
-        .image_view(view)
-        .image_layout(vk::ImageLayout::DEPTH_READ_ONLY_OPTIMAL)];
-    let write = vk::WriteDescriptorSet::default()
-        .dst_set(set)
-        .descriptor_type(vk::DescriptorType::SAMPLED_IMAGE)
-        .image_info(&info);
-    unsafe { context.device.update_descriptor_sets(&[write], &[]) };
 }

@@ -185,6 +185,7 @@ mod assign_equality;
 mod cull;
 mod list_twins;
 mod sphere_tests;
+mod targets;
 
 /// A small deterministic generator; quality does not matter here.
 fn noise(seed: u64) -> impl FnMut() -> u32 {

@@ -3,6 +3,7 @@
 use super::{Layouts, Uses, failed, set_layout};
 use crate::Result;
 use crate::buffers::{BUFFER_COUNT, BufferSet};
+use crate::targets::TargetName;
 use crate::vk::{self as gpu, Context, c_string};
 use ash::vk;
 use std::ffi::CString;
@@ -72,16 +73,23 @@ pub struct Pipeline {
     pub name: String,
     /// What tools for captures show.
     pub label: CString,
+    /// The colour targets that it draws into, in the order of its fragment shader's locations.
+    pub targets: &'static [TargetName],
     /// Which of all pipelines it is, by which its descriptor sets are found.
     pub number: usize,
     _pipeline: gpu::Pipeline,
 }
 
 impl Pipeline {
-    /// Pipeline `number` of the program.
+    /// Pipeline `number` of the program, which draws into no colour target.
     pub fn new(pipeline: gpu::Pipeline, layout: PipelineLayout, name: &str, number: usize) -> Self {
         let (name, label) = (name.to_owned(), c_string(name));
-        Self { handle: pipeline.handle, layout, name, label, number, _pipeline: pipeline }
+        Self { handle: pipeline.handle, layout, name, label, targets: &[], number, _pipeline: pipeline }
+    }
+
+    /// It, made for these colour targets.
+    pub fn drawing_into(self, targets: &'static [TargetName]) -> Self {
+        Self { targets, ..self }
     }
 
     /// What its shaders use.

@@ -52,6 +52,11 @@ impl Declared {
 }
 
 impl Recorder<'_> {
+    /// Whether what passes say is compared with what their pipelines do: in debug builds, and where devices validate.
+    pub fn checks(&self) -> bool {
+        cfg!(debug_assertions) || self.context.validates()
+    }
+
     /// Waits for what pipelines use of `buffers`, and for `others`.
     ///
     /// # Panics
@@ -63,8 +68,9 @@ impl Recorder<'_> {
         declared: Declared,
         others: impl IntoIterator<Item = Option<Access>>,
     ) {
-        let checks = cfg!(debug_assertions) || self.context.validates();
-        if checks && let Some(fault) = declared.fault(pipelines.clone(), buffers.empty) {
+        if self.checks()
+            && let Some(fault) = declared.fault(pipelines.clone(), buffers.empty)
+        {
             panic!("{fault}");
         }
         let stages = |name: BufferName| {

@@ -18,7 +18,7 @@ pub fn record(r: &mut Recorder, frame: &Frame, eyes: Eyes) -> Depth {
     r.scope(eyes.stage("depth"), |r| {
         let pass = SurfacePass {
             eyes,
-            color: None,
+            colors: &[],
             depth: DepthUse::Write,
             draws: &[
                 (SurfaceKind::Opaque, SurfacePipelines::One(&frame.pipelines.depth_opaque)),

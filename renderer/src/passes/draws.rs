@@ -6,6 +6,7 @@ use crate::draw_list::{DrawRun, SurfaceKind};
 use crate::gpu_interface::{DrawCommand, SET_MATERIAL};
 use crate::layouts::{BoundBuffers, Pipeline};
 use crate::pass::{Access, Declared, Push, Recorder, Use};
+use crate::targets::{TARGET_COUNT, TargetName};
 use crate::texture_sets::TextureSet;
 use crate::vk::Buffer;
 use ash::vk;
@@ -21,10 +22,10 @@ pub enum DepthUse {
     Test,
 }
 
-/// How a pass uses the colour of its views.
+/// How a pass uses a colour target of its views.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ColorUse {
-    /// Cleared to a linear colour and alpha.
+    /// Cleared to red, green, blue and alpha; the format of the target is one of floats.
     Clear([f32; 4]),
     /// Drawn over.
     Keep,
@@ -64,8 +65,8 @@ impl<'a> SurfacePipelines<'a> {
 pub struct SurfacePass<'a> {
     /// The views it draws.
     pub eyes: Eyes,
-    /// What becomes of their colour; `None` where it is left alone.
-    pub color: Option<ColorUse>,
+    /// The colour targets that it draws into, in the order of the shaders' locations, and what becomes of each.
+    pub colors: &'a [(TargetName, ColorUse)],
     /// What becomes of their depth.
     pub depth: DepthUse,
     /// What is drawn, in order.
@@ -79,10 +80,10 @@ pub struct SurfacePass<'a> {
 /// Draws surfaces of the scene.
 pub fn surfaces(r: &mut Recorder, frame: &Frame, pass: &SurfacePass) {
     let drawn = pass.draws.iter().any(|&(kind, _)| frame.draws_any(pass.eyes, kind));
-    if !drawn && pass.color.is_none() && pass.depth == DepthUse::Test {
+    if !drawn && pass.colors.is_empty() && pass.depth == DepthUse::Test {
         return;
     }
-    let attached = Attached { eyes: pass.eyes, color: pass.color, depth: pass.depth };
+    let attached = Attached { eyes: pass.eyes, colors: pass.colors, depth: pass.depth };
     let buffers = frame.buffers_of_view(pass.eyes.first());
     let (mut reads, mut commands) = (pass.reads, None);
     if let Draws::Indirect { buffers, .. } = &frame.draws {
@@ -90,8 +91,9 @@ pub fn surfaces(r: &mut Recorder, frame: &Frame, pass: &SurfacePass) {
         commands = Some(Access::buffer(buffers.commands.handle, Use::Indirect));
     }
     let pipelines = pass.draws.iter().flat_map(|draw| draw.1.all());
+    attached.check(r, pipelines.clone());
     let declared = Declared { reads, writes: pass.writes };
-    r.prepare(pipelines, &buffers, declared, attached.accesses(frame).into_iter().chain([commands]));
+    r.prepare(pipelines, &buffers, declared, attached.accesses(frame).map(Some).chain([commands]));
     begin_rendering(r, frame, &attached);
     for &(kind, pipelines) in pass.draws {
         draw(r, frame, pass.eyes, (kind, pipelines));
@@ -116,16 +118,17 @@ pub struct Overlay<'a> {
     pub reads: BufferSet,
 }
 
-/// Draws over a view's cleared colour, behind what its depth shows.
+/// Draws over a view's cleared radiance, behind what its depth shows.
 pub fn overlays(r: &mut Recorder, frame: &Frame, view: usize, overlays: &[Overlay]) {
-    let attached =
-        Attached { eyes: Eyes::One(view), color: Some(ColorUse::Clear([0.0; 4])), depth: DepthUse::Test };
+    let colors = &[(TargetName::Radiance, ColorUse::Clear([0.0; 4]))];
+    let attached = Attached { eyes: Eyes::One(view), colors, depth: DepthUse::Test };
+    attached.check(r, overlays.iter().map(|overlay| overlay.pipeline));
     let buffers = frame.buffers_of_view(view);
     for overlay in overlays {
         let declared = Declared { reads: overlay.reads, writes: BufferSet::EMPTY };
         r.prepare([overlay.pipeline], &buffers, declared, []);
     }
-    r.access(attached.accesses(frame).into_iter().flatten());
+    r.access(attached.accesses(frame));
     begin_rendering(r, frame, &attached);
     for overlay in overlays {
         r.bind(vk::PipelineBindPoint::GRAPHICS, overlay.pipeline, &buffers, Push::view(view));
@@ -142,22 +145,35 @@ pub fn overlays(r: &mut Recorder, frame: &Frame, view: usize, overlays: &[Overla
 }
 
 /// What a pass draws into.
-struct Attached {
+struct Attached<'a> {
     eyes: Eyes,
-    color: Option<ColorUse>,
+    colors: &'a [(TargetName, ColorUse)],
     depth: DepthUse,
 }
 
-impl Attached {
+impl Attached<'_> {
+    /// # Panics
+    /// Where builds or devices check and a pipeline draws into other targets: a fault of the program.
+    fn check<'p>(&self, r: &Recorder, pipelines: impl IntoIterator<Item = &'p Pipeline>) {
+        if !r.checks() {
+            return;
+        }
+        for pipeline in pipelines {
+            let attached: Vec<_> = self.colors.iter().map(|color| color.0).collect();
+            let (name, drawn) = (&pipeline.name, pipeline.targets);
+            assert!(drawn == attached, "{name}: draws into {drawn:?}, its pass into {attached:?}");
+        }
+    }
+
     /// What it does with the images.
-    fn accesses(&self, frame: &Frame) -> [Option<Access>; 2] {
-        let target = &frame.targets[self.eyes.first()];
-        let (color, depth) = (target.color.image.handle, target.depth.image.handle);
+    fn accesses(&self, frame: &Frame) -> impl Iterator<Item = Access> {
+        let targets = &frame.targets[self.eyes.first()];
+        let color = move |&(name, _): &(TargetName, ColorUse)| {
+            Access::image(targets[name].drawn.image.handle, vk::ImageAspectFlags::COLOR, Use::Color)
+        };
         let usage = if self.depth == DepthUse::Write { Use::Depth } else { Use::DepthTest };
-        [
-            self.color.map(|_| Access::image(color, vk::ImageAspectFlags::COLOR, Use::Color)),
-            Some(Access::image(depth, vk::ImageAspectFlags::DEPTH, usage)),
-        ]
+        let depth = Access::image(targets.depth.image.handle, vk::ImageAspectFlags::DEPTH, usage);
+        self.colors.iter().map(color).chain([depth])
     }
 
     /// The attachment of a view's image: its layer, or all layers for all views.
@@ -168,18 +184,29 @@ impl Attached {
         })
     }
 
-    fn color(&self, frame: &Frame) -> Option<vk::RenderingAttachmentInfo<'static>> {
-        let (load, float32) = match self.color? {
+    /// The attachments of colour, of which the first are in use: as many as the pass names.
+    fn colors(&self, frame: &Frame) -> [vk::RenderingAttachmentInfo<'static>; TARGET_COUNT] {
+        let mut attachments = [vk::RenderingAttachmentInfo::default(); TARGET_COUNT];
+        for (attachment, &color) in attachments.iter_mut().zip(self.colors) {
+            *attachment = self.color(frame, color);
+        }
+        attachments
+    }
+
+    fn color(
+        &self,
+        frame: &Frame,
+        (name, usage): (TargetName, ColorUse),
+    ) -> vk::RenderingAttachmentInfo<'static> {
+        let (load, float32) = match usage {
             ColorUse::Clear(color) => (vk::AttachmentLoadOp::CLEAR, color),
             ColorUse::Keep => (vk::AttachmentLoadOp::LOAD, [0.0; 4]),
         };
-        let attachment = self
-            .attachment(&frame.targets[self.eyes.first()].color)
+        self.attachment(&frame.targets[self.eyes.first()][name].drawn)
             .image_layout(vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL)
             .load_op(load)
             .store_op(vk::AttachmentStoreOp::STORE)
-            .clear_value(vk::ClearValue { color: vk::ClearColorValue { float32 } });
-        Some(attachment)
+            .clear_value(vk::ClearValue { color: vk::ClearColorValue { float32 } })
     }
 
     fn depth(&self, frame: &Frame) -> vk::RenderingAttachmentInfo<'static> {
@@ -216,11 +243,11 @@ fn begin_rendering(r: &Recorder, frame: &Frame, attached: &Attached) {
         min_depth: 0.0,
         max_depth: 1.0,
     };
-    let (color, depth) = (attached.color(frame), attached.depth(frame));
+    let (colors, depth) = (attached.colors(frame), attached.depth(frame));
     let info = vk::RenderingInfo::default()
         .render_area(area)
         .layer_count(frame.view_count(attached.eyes))
-        .color_attachments(color.as_slice())
+        .color_attachments(&colors[..attached.colors.len()])
         .depth_attachment(&depth);
     let device = &r.context.device;
     unsafe {

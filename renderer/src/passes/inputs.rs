@@ -9,9 +9,10 @@ use crate::gpu_scene::GpuScene;
 use crate::layouts::BoundBuffers;
 use crate::pass::{DepthImage, ScopeName};
 use crate::pipelines::Pipelines;
+use crate::targets::TargetName;
 use crate::vk::{Buffer, Image};
 use ash::vk;
-use std::ops::Range;
+use std::ops::{Index, Range};
 use std::sync::Arc;
 
 /// One layer of an image. With multiview a view is a layer of an image that all views share; else it has its own image.
@@ -25,6 +26,11 @@ pub struct Layer {
 }
 
 impl Layer {
+    /// A layer of an image.
+    pub fn new(image: &Arc<Image>, index: usize) -> Self {
+        Self { image: image.clone(), index: index as u32, view: image.layer_views[index] }
+    }
+
     /// Its colour, for copies.
     pub fn color(&self) -> (vk::Image, vk::ImageSubresourceLayers) {
         let layers = vk::ImageSubresourceLayers::default().aspect_mask(vk::ImageAspectFlags::COLOR);
@@ -59,22 +65,43 @@ impl Eyes {
     }
 }
 
-/// What a view is rendered into.
+/// A colour target of one view.
+pub struct ColorTarget {
+    /// What is drawn into, with all samples.
+    pub drawn: Layer,
+    /// The same with one sample a pixel; `None` where `drawn` has no more, or the target is not resolved.
+    pub resolved: Option<Layer>,
+}
+
+impl ColorTarget {
+    /// What the host reads.
+    pub fn readable(&self) -> &Layer {
+        self.resolved.as_ref().unwrap_or(&self.drawn)
+    }
+}
+
+/// What a view is rendered into; its colour targets are found by name.
 pub struct ViewTargets {
     /// Reversed depth.
     pub depth: Layer,
-    /// Linear HDR colour, with all its samples.
-    pub color: Layer,
-    /// Colour with one sample; `None` where `color` has no more.
-    pub resolved: Option<Layer>,
     /// `depth`, for compute shaders.
     pub depth_set: vk::DescriptorSet,
+    /// In the order of [`TargetName::ALL`].
+    pub colors: Vec<ColorTarget>,
 }
 
 impl ViewTargets {
     /// Its depth, as compute shaders sample it.
     pub fn depth_image(&self) -> DepthImage {
         DepthImage { image: self.depth.image.handle, set: self.depth_set }
+    }
+}
+
+impl Index<TargetName> for ViewTargets {
+    type Output = ColorTarget;
+
+    fn index(&self, name: TargetName) -> &ColorTarget {
+        &self.colors[name as usize]
     }
 }
 

@@ -65,7 +65,7 @@ fn visit(
         frame,
         &SurfacePass {
             eyes: Eyes::One(view),
-            color: None,
+            colors: &[],
             depth: DepthUse::Test,
             draws: &draws[first..],
             reads,

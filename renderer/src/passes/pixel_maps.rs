@@ -5,23 +5,24 @@ use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::gpu_interface::PixelData;
 use crate::layouts::Pipeline;
 use crate::pass::{BufferCopy, Dispatch, Push, Recorder, Size};
+use crate::targets::TargetName;
 use crate::vk::Buffer;
 
 /// What tells the list of a pixel's cluster, and its fragments.
 const LOOKED_UP: BufferSet = set(&[B::ClusterBits, B::WordRanks, B::ListOffsets, B::VisibleFragments]);
 
-/// Bytes of a view's colour (half RGBA) and, behind it, of its [`PixelData`].
+/// Bytes of a view's [`TargetName::Radiance`] (half RGBA) and, behind it, of its [`PixelData`].
 pub fn view_bytes([width, height]: [u32; 2]) -> [u64; 2] {
     let pixels = u64::from(width) * u64::from(height);
-    [8 * pixels, size_of::<PixelData>() as u64 * pixels]
+    [TargetName::Radiance.view_bytes([width, height]), size_of::<PixelData>() as u64 * pixels]
 }
 
-/// Copies one view's colour and pixel data to `target`, which holds [`view_bytes`].
+/// Copies one view's radiance and pixel data to `target`, which holds [`view_bytes`].
 pub fn record(r: &mut Recorder, frame: &Frame, view: usize, target: &Buffer) {
     let [offset, _] = view_bytes(frame.resolution);
     let clustering = frame.sharing.clustering_of(view);
     look_up(r, frame, &frame.pipelines.pixel_maps, (view, clustering), (target, offset));
-    copy_color(r, frame, view, target);
+    copy_target(r, frame, (view, TargetName::Radiance), target);
     r.hand_over(target);
 }
 
@@ -44,9 +45,7 @@ pub(super) fn look_up(
     r.copy(&BufferCopy { from, to, offset, size });
 }
 
-/// Copies a view's colour, one sample a pixel, to the start of `target`.
-pub fn copy_color(r: &mut Recorder, frame: &Frame, view: usize, target: &Buffer) {
-    let targets = &frame.targets[view];
-    let source = targets.resolved.as_ref().unwrap_or(&targets.color);
-    r.copy_image(source.color(), frame.resolution, target);
+/// Copies a target of a view, one sample a pixel, to the start of a buffer.
+pub fn copy_target(r: &mut Recorder, frame: &Frame, (view, name): (usize, TargetName), to: &Buffer) {
+    r.copy_image(frame.targets[view][name].readable().color(), frame.resolution, to);
 }

@@ -1,24 +1,22 @@
 //! Stage `resolve`: the samples of every pixel averaged, with MSAA alone.
 
 use super::handles::Color;
-use super::inputs::{Frame, ViewTargets};
+use super::inputs::{ColorTarget, Frame};
 use crate::pass::Recorder;
+use crate::targets::TargetName;
 
-/// Resolves every view's colour.
+/// Resolves every view's targets.
 pub fn record(r: &mut Recorder, frame: &Frame, _color: Color) {
-    if frame.targets.iter().all(|target| target.resolved.is_none()) {
+    let targets = || frame.targets.iter().flat_map(|view| TargetName::ALL.map(|name| &view[name]));
+    if targets().all(|target| target.resolved.is_none()) {
         return;
     }
-    r.scope("resolve", |r| {
-        for target in frame.targets {
-            resolve(r, target, frame.resolution);
-        }
-    });
+    r.scope("resolve", |r| targets().for_each(|target| resolve(r, target, frame.resolution)));
 }
 
-/// Resolves one view's colour; without MSAA there is nothing to do.
-pub fn resolve(r: &mut Recorder, target: &ViewTargets, size: [u32; 2]) {
+/// Resolves one target of a view; without MSAA there is nothing to do.
+pub fn resolve(r: &mut Recorder, target: &ColorTarget, size: [u32; 2]) {
     if let Some(resolved) = &target.resolved {
-        r.resolve(target.color.color(), resolved.color(), size);
+        r.resolve(target.drawn.color(), resolved.color(), size);
     }
 }

@@ -8,6 +8,7 @@ use super::inputs::{Eyes, Frame};
 use crate::buffers::{BufferName as B, set};
 use crate::draw_list::SurfaceKind;
 use crate::pass::Recorder;
+use crate::targets::TargetName;
 
 /// What is seen where nothing was drawn: a dim night sky, linear, that covers nothing.
 pub const BACKGROUND: [f32; 4] = [0.004, 0.006, 0.012, 0.0];
@@ -39,9 +40,10 @@ fn shade(r: &mut Recorder, frame: &Frame, eyes: Eyes) {
 
 fn surfaces(r: &mut Recorder, frame: &Frame, eyes: Eyes, kind: SurfaceKind) {
     let first = kind == SurfaceKind::Opaque;
+    let radiance = if first { ColorUse::Clear(BACKGROUND) } else { ColorUse::Keep };
     let pass = SurfacePass {
         eyes,
-        color: Some(if first { ColorUse::Clear(BACKGROUND) } else { ColorUse::Keep }),
+        colors: &[(TargetName::Radiance, radiance)],
         depth: DepthUse::Test,
         draws: &[(kind, SurfacePipelines::ByTextures(&frame.pipelines.shade[kind as usize]))],
         reads: set(&[B::Lights, B::ClusterBits, B::WordRanks, B::ListOffsets, B::LightIndices]),

@@ -1,9 +1,10 @@
 //! The variants of what stills draw; no replay makes them.
 
-use super::{COLOR_FORMAT, DEPTH_FORMAT, Output, PipelineStore, Variant};
+use super::{Output, PipelineStore, Variant};
 use crate::Result;
 use crate::draw_list::SurfaceKind;
 use crate::layouts::Pipeline;
+use crate::targets::TargetName;
 use crate::texture_sets::TextureSet;
 use crate::vk::GraphicsDesc;
 use ash::vk;
@@ -119,7 +120,7 @@ impl PipelineStore {
             let vertex = store.shaders.compile(&format!("{stem}.vert"), &defines.0)?;
             let fragment = store.shaders.compile(&format!("{stem}.frag"), &defines.0)?;
             let desc = GraphicsDesc { vertex: &vertex, fragment: Some(&fragment), ..desc };
-            store.rasterizing(&desc, stem, number)
+            store.rasterizing(desc, &[TargetName::Radiance], (stem, number))
         })
     }
 }
@@ -128,8 +129,6 @@ impl PipelineStore {
 fn overlay(variant: &Variant) -> GraphicsDesc<'static> {
     GraphicsDesc {
         depth_compare: Some(vk::CompareOp::GREATER_OR_EQUAL),
-        depth_format: Some(DEPTH_FORMAT),
-        color_format: Some(COLOR_FORMAT),
         blend: true,
         samples: vk::SampleCountFlags::from_raw(variant.samples),
         ..Default::default()

@@ -3,6 +3,7 @@
 use crate::pass::Recorder;
 use crate::passes::{Eyes, Frame, clay, depth, draws, lines, pixel_clusters, pixel_maps, resolve, spheres};
 use crate::pipelines::DebugPipelines;
+use crate::targets::TargetName;
 use crate::vk::Buffer;
 
 /// What is drawn.
@@ -54,7 +55,8 @@ pub fn record(r: &mut Recorder, frame: &Frame, drawing: &Drawing, outputs: &Outp
 }
 
 fn copy_out(r: &mut Recorder, frame: &Frame, view: usize, target: &Buffer) {
-    resolve::resolve(r, &frame.targets[view], frame.resolution);
-    pixel_maps::copy_color(r, frame, view, target);
+    let name = TargetName::Radiance;
+    resolve::resolve(r, &frame.targets[view][name], frame.resolution);
+    pixel_maps::copy_target(r, frame, (view, name), target);
     r.hand_over(target);
 }

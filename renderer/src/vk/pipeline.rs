@@ -63,9 +63,9 @@ pub struct GraphicsDesc<'a> {
     pub depth_compare: Option<vk::CompareOp>,
     /// Format of the depth attachment, `None` without one.
     pub depth_format: Option<vk::Format>,
-    /// Format of the colour attachment, `None` without one.
-    pub color_format: Option<vk::Format>,
-    /// Blends by the source's (not premultiplied) alpha over what is there; alpha accumulates coverage.
+    /// Formats of the colour attachments, in the order of the fragment shader's locations.
+    pub color_formats: &'a [vk::Format],
+    /// Blends by the source's (not premultiplied) alpha over what is there, in every attachment; alpha accumulates coverage.
     pub blend: bool,
     /// Samples of the attachments.
     pub samples: vk::SampleCountFlags,
@@ -87,7 +87,7 @@ impl Default for GraphicsDesc<'_> {
             depth_write: false,
             depth_compare: None,
             depth_format: None,
-            color_format: None,
+            color_formats: &[],
             blend: false,
             samples: vk::SampleCountFlags::TYPE_1,
             sample_shading: false,
@@ -132,9 +132,8 @@ pub fn graphics_pipeline(
         .depth_test_enable(desc.depth_compare.is_some())
         .depth_write_enable(desc.depth_write)
         .depth_compare_op(desc.depth_compare.unwrap_or(vk::CompareOp::ALWAYS));
-    let attachments = [blend_state(desc.blend)];
-    let used = if desc.color_format.is_some() { 1 } else { 0 };
-    let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments[..used]);
+    let attachments = vec![blend_state(desc.blend); desc.color_formats.len()];
+    let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
     let dynamic_states = [
         vk::DynamicState::VIEWPORT,
         vk::DynamicState::SCISSOR,
@@ -145,7 +144,7 @@ pub fn graphics_pipeline(
     let dynamic =
         vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic_states[..dynamic_count]);
     let mut rendering = vk::PipelineRenderingCreateInfo::default()
-        .color_attachment_formats(desc.color_format.as_slice())
+        .color_attachment_formats(desc.color_formats)
         .depth_attachment_format(desc.depth_format.unwrap_or(vk::Format::UNDEFINED));
     let info = vk::GraphicsPipelineCreateInfo::default()
         .stages(&stages)

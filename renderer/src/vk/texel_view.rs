@@ -47,11 +47,12 @@ impl Drop for TexelView {
     }
 }
 
-/// Bytes of a texel. Every device reads these formats (Vulkan 1.3, "Required Format Support").
+/// Bytes of a texel. Every device has buffers of these formats, or images (Vulkan 1.3, "Required Format Support").
 pub fn texel_bytes(format: vk::Format) -> u64 {
     match format {
         vk::Format::R32_UINT => 4,
+        vk::Format::R16G16B16A16_SFLOAT => 8,
         vk::Format::R32G32B32A32_SFLOAT | vk::Format::R32G32B32A32_UINT => 16,
-        other => unreachable!("no buffer is read as texels of {other:?}"),
+        other => unreachable!("no buffer or target has texels of {other:?}"),
     }
 }

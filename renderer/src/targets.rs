@@ -1,0 +1,67 @@
+//! What views are rendered into: depth, and colour targets that are declared once by name. Their images, the formats of the
+//! pipelines that draw into them, resolving and reading back follow from the names.
+//!
+//! ```text
+//! passes name targets ──draw──> drawn (all samples) ──resolve (MSAA)──> resolved ──copy──> host
+//! ```
+
+use crate::vk::texel_bytes;
+use ash::vk;
+
+/// Format of every view's depth.
+pub const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
+
+/// What a colour target is.
+#[derive(Debug, Clone, Copy)]
+pub struct TargetInfo {
+    /// What its images are called.
+    pub name: &'static str,
+    /// Format of its texels.
+    pub format: vk::Format,
+    /// What its images are used for, besides being drawn into and resolved.
+    pub usage: vk::ImageUsageFlags,
+    /// Whether MSAA's samples are averaged into an image with one sample a pixel.
+    pub resolved: bool,
+}
+
+/// Declares the names and what they name.
+macro_rules! targets {
+    ($($(#[$doc:meta])* $name:ident = $info:expr;)+) => {
+        /// A colour target of every view.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        #[repr(u32)]
+        pub enum TargetName { $($(#[$doc])* $name),+ }
+
+        impl TargetName {
+            /// All of them.
+            pub const ALL: [Self; TARGET_COUNT] = [$(Self::$name),+];
+        }
+
+        /// How many there are.
+        pub const TARGET_COUNT: usize = [$(stringify!($name)),+].len();
+
+        static TARGETS: [TargetInfo; TARGET_COUNT] = [$($info),+];
+    };
+}
+
+targets! {
+    /// Radiance towards the camera, linear, without an upper bound; alpha is how much of the pixel surfaces cover.
+    Radiance = TargetInfo {
+        name: "radiance",
+        format: vk::Format::R16G16B16A16_SFLOAT,
+        usage: vk::ImageUsageFlags::TRANSFER_SRC,
+        resolved: true,
+    };
+}
+
+impl TargetName {
+    /// What it is.
+    pub fn info(self) -> &'static TargetInfo {
+        &TARGETS[self as usize]
+    }
+
+    /// Bytes of a view's texels, one a pixel, at a width and height.
+    pub fn view_bytes(self, [width, height]: [u32; 2]) -> u64 {
+        texel_bytes(self.info().format) * u64::from(width) * u64::from(height)
+    }
+}
