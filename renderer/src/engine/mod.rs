@@ -17,7 +17,7 @@ use crate::clustering::{Clustering, SLOTS, SharedBuffer, grid_data, gridless_dat
 use crate::config::{Config, Scopes};
 use crate::culling::Culling;
 use crate::frame::{self, Draws, Frame};
-use crate::geometry::SphereTest;
+use crate::geometry::{SphereTest, VolumeKind};
 use crate::gpu_interface::{ClusteringState, DrawCounts, LightData};
 use crate::layouts::Pipeline;
 use crate::lights::PointLight;
@@ -410,6 +410,7 @@ fn light_data(light: &PointLight, origin: DVec3) -> LightData {
         intensity: light.intensity,
         cutoff: light.cutoff,
         r0: light.r0,
+        kind: VolumeKind::Sphere as u32,
         ..Default::default()
     }
 }

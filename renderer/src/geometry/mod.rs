@@ -1,4 +1,4 @@
-//! Clustering geometry, pure and in f64: frusta, enclosing frusta, cluster spaces, sphere tests.
+//! Clustering geometry, pure and in f64: frusta, enclosing frusta, cluster spaces, tests of light volumes.
 //! It knows neither files nor GPU.
 //!
 //! ```text
@@ -7,16 +7,18 @@
 //!                                                              └─ Ortho: bounds, from metres ─────────┘
 //! ```
 
+mod cell_test;
 mod dimensions;
 mod displaced;
 mod enclosing;
 mod frustum;
 mod grid;
 mod piece;
-mod sphere;
 mod sphere_test;
 pub mod views;
+mod volume;
 
+pub use cell_test::{CellTest, Plane, axis_box, half_space};
 pub use dimensions::{
     PerspectiveDimensions, average_volume, from_metres, from_pixels, from_volume, side_in_tangents,
 };
@@ -24,5 +26,5 @@ pub use displaced::{DisplacedVolume, displaced};
 pub use enclosing::{Enclosing, enclosing};
 pub use frustum::Frustum;
 pub use grid::{ClusterSpace, Grid, cell_at};
-pub use sphere::{CellTest, Plane, axis_box, half_space};
 pub use sphere_test::{Candidates, SphereTest};
+pub use volume::{LightVolume, VolumeKind};

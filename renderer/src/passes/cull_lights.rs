@@ -3,7 +3,7 @@
 //! ```text
 //! visible_clusters ──mark_blocks──> block_bits ─┐
 //! lights ───────────────────────────────────────┴─cull_lights──> light_bits ──scan──> ranks
-//! ranks, lights ──list_candidates──> candidates, light_spheres
+//! ranks, lights ──list_candidates──> candidates, light_volumes
 //! ```
 
 use super::scan::rank_lights;
@@ -31,7 +31,7 @@ pub fn cull_lights(r: &mut Recorder, frame: &Frame, clustering: usize) {
         let (blocks, bits) = (set(&[B::BlockBits]), set(&[B::LightBits]));
         per_word(r, frame, clustering, &pipelines.cull_lights, (lights | blocks, bits));
         rank_lights(r, frame, clustering);
-        let candidates = set(&[B::LightSpheres, B::Candidates]);
+        let candidates = set(&[B::LightVolumes, B::Candidates]);
         per_word(r, frame, clustering, &pipelines.list_candidates, (lights | bits, candidates));
     });
 }

@@ -17,14 +17,14 @@ pub fn build_hierarchy(r: &mut Recorder, frame: &Frame, clustering: usize) {
     r.scope("build_hierarchy", |r| {
         let pipelines = frame.pipelines.accelerated();
         let (state, sorted) = (set(&[B::State]), set(&[B::SortItems, B::DigitCounts]));
-        let lights = state | set(&[B::LightSpheres]);
+        let lights = state | set(&[B::LightVolumes]);
         for step in 0..sort_passes(frame.light_count) {
             let slot = DISPATCH_SORT;
             run(r, frame, clustering, (&pipelines.count_digits, slot, step), (lights, sorted));
             digit_offsets(r, frame, clustering, step);
             run(r, frame, clustering, (&pipelines.reorder, slot, step), (state, sorted));
         }
-        let nodes = set(&[B::TreeSpheres, B::TreeLights, B::LightNodes]);
+        let nodes = set(&[B::TreeVolumes, B::TreeLights, B::LightNodes]);
         for depth in (1..tree_depth(frame.light_count)).rev() {
             let slot = DISPATCH_NODES + depth - 1;
             let reads = lights | set(&[B::SortItems]);
