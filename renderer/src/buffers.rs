@@ -4,7 +4,7 @@
 //! ```text
 //! views ─┬─> cluster_bits ──scan──> word_ranks, visible_clusters ─┐
 //! grid ──┘      (mark)                                            ├─> list_lengths ──scan──> list_offsets ───┐
-//! lights ─────> light_spheres ────────────────────────────────────┘   (count_lights)                         │
+//! lights ─────> light_volumes ────────────────────────────────────┘   (count_lights)                         │
 //!               (transform_lights)             └──────────────────────────> light_indices (assign_lights) <──┘
 //! ```
 //!
@@ -17,7 +17,7 @@
 //!
 //! All ways go to `list_lengths` by way of `light_masks` where these have room. Hierarchy and scatter first put the lights
 //! that may meet a visible cluster into `candidates` (cull_lights: `block_bits`, `light_bits`); then the hierarchy makes
-//! `sort_items`, `digit_counts`, `tree_spheres`, `tree_lights` and `light_nodes`, scatter `groups`, `tile_groups` and
+//! `sort_items`, `digit_counts`, `tree_volumes`, `tree_lights` and `light_nodes`, scatter `groups`, `tile_groups` and
 //! `group_lights`.
 
 mod info;
@@ -30,7 +30,7 @@ pub use sizes::ClusteringSizes;
 
 use crate::gpu_interface::{
     BLOCK_WORDS, COUNTER_COUNT, Candidate, ClusterGroup, ClusteringState, DISPATCH_COUNT, DispatchSize,
-    GridData, InstanceData, LightData, LightNode, PixelData,
+    GridData, InstanceData, LightData, LightNode, LightVolume, PixelData,
 };
 use info::{buffer, bytes};
 
@@ -64,11 +64,11 @@ buffers! {
     SlicePlanes = buffer("slice_planes", Owner::ClusteringFrame)
         .storage("float slice_planes[]")
         .sized(|s| bytes::<f32>(s.slice_planes.into()));
-    /// Lights, or candidates, in clustering space: centre, radius.
-    LightSpheres = buffer("light_spheres", Owner::Clustering)
-        .storage("vec4 light_spheres[]")
-        .texels("sphere", Element::Vec4)
-        .sized(|s| bytes::<[f32; 4]>(s.lights.into()));
+    /// Lights, or candidates, in clustering space.
+    LightVolumes = buffer("light_volumes", Owner::Clustering)
+        .storage("LightVolume light_volumes[]")
+        .texels("volume", Element::Struct(LightVolume::INFO))
+        .sized(|s| bytes::<LightVolume>(s.lights.into()));
     /// A bit per cluster.
     ClusterBits = buffer("cluster_bits", Owner::Clustering)
         .storage("uint cluster_bits[]")
@@ -140,11 +140,11 @@ buffers! {
     DigitCounts = buffer("digit_counts", Owner::Clustering)
         .storage("uint digit_counts[]")
         .sized(|s| bytes::<u32>(s.digit_counts()));
-    /// `light_spheres` in the order of the hierarchy.
-    TreeSpheres = buffer("tree_spheres", Owner::Clustering)
-        .storage("vec4 tree_spheres[]")
-        .texels("tree", Element::Vec4)
-        .sized(|s| bytes::<[f32; 4]>(s.tree_lights()));
+    /// `light_volumes` in the order of the hierarchy.
+    TreeVolumes = buffer("tree_volumes", Owner::Clustering)
+        .storage("LightVolume tree_volumes[]")
+        .texels("tree_volume", Element::Struct(LightVolume::INFO))
+        .sized(|s| bytes::<LightVolume>(s.tree_lights()));
     /// The numbers of those among the candidates.
     TreeLights = buffer("tree_lights", Owner::Clustering)
         .storage("uint tree_lights[]")

@@ -5,9 +5,10 @@ mod structs;
 
 pub use structs::{
     Candidate, ClusterGroup, ClusteringState, DispatchSize, DrawCommand, DrawCounts, GridData, InstanceData,
-    LightData, LightNode, MaterialData, PixelData, ViewData,
+    LightData, LightNode, LightVolume, MaterialData, PixelData, ViewData,
 };
 
+use crate::geometry::VolumeKind;
 use crate::gpu_types::StructInfo;
 use crate::lights::Attenuation;
 use crate::measure::DeviceCounts;
@@ -122,10 +123,11 @@ const TEXTURE_SLOTS: [(&str, TextureSlot); 5] = [
 ];
 
 /// Every shared struct; one comes after those it contains.
-const STRUCTS: [StructInfo; 13] = [
+const STRUCTS: [StructInfo; 14] = [
     ViewData::INFO,
     GridData::INFO,
     LightNode::INFO,
+    LightVolume::INFO,
     LightData::INFO,
     MaterialData::INFO,
     InstanceData::INFO,
@@ -169,6 +171,9 @@ pub fn glsl() -> String {
     for attenuation in Attenuation::ALL {
         let name = attenuation.to_string().to_uppercase();
         let _ = writeln!(text, "const uint ATTENUATION_{name} = {};", attenuation as u32);
+    }
+    for kind in VolumeKind::ALL {
+        let _ = writeln!(text, "const uint VOLUME_{} = {};", kind.name().to_uppercase(), kind as u32);
     }
     for structure in STRUCTS {
         text.push_str(&structure.glsl());

@@ -18,7 +18,7 @@ void main()
     uint tile = gl_WorkGroupID.y;
     uint first = tile * ASSIGN_GROUP;
     uint there = min(grid.light_count - first, ASSIGN_GROUP);
-    fill_tile(read_sphere(first + min(gl_LocalInvocationID.x, there - 1u)));
+    fill_tile(read_volume(first + min(gl_LocalInvocationID.x, there - 1u)));
     uint visible = gl_GlobalInvocationID.x;
     uvec2 met = lights_met(cell_of_visible(visible), there);
     if (visible >= state.visible)

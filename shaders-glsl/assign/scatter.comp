@@ -28,7 +28,7 @@ void main()
         }
     }
     tile_numbers[thread] = number;
-    fill_tile(read_sphere(number));
+    fill_tile(read_volume(number));
     uint visible = group * ASSIGN_GROUP + thread;
     uvec2 met = lights_met(cell_of_visible(visible), there);
     if (visible >= state.visible)

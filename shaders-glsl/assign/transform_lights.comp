@@ -1,6 +1,6 @@
 // All lights into the clustering camera's space, for brute force.
 #version 460
-#include "lib/light_sphere.glsl"
+#include "lib/light_volume.glsl"
 
 layout(local_size_x = ASSIGN_GROUP) in;
 
@@ -8,5 +8,5 @@ void main()
 {
     uint light = gl_GlobalInvocationID.x;
     if (light < grid.light_count)
-        light_spheres[light] = sphere_of_light(light);
+        light_volumes[light] = volume_of_light(light);
 }

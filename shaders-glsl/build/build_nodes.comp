@@ -23,10 +23,10 @@ Hull hull_of_lights(uint first)
     uint items = (grid.sort_passes - 1u & 1u) * grid.light_count;
     for (uint i = first; i < min(first + TREE_WIDTH, state.candidates); ++i) {
         uint number = sort_items[items + i].y;
-        vec4 sphere = read_sphere(number);
-        tree_spheres[i] = sphere;
+        LightVolume volume = read_volume(number);
+        tree_volumes[i] = volume;
         tree_lights[i] = number;
-        include(hull, sphere.xyz, sphere.xyz, sphere.w);
+        include(hull, volume.centre, volume.centre, volume.radius);
     }
     return hull;
 }

@@ -15,9 +15,9 @@ uint spread(uint x)
     return (x | x << 2) & 0x09249249u;
 }
 
-uint light_key(vec4 sphere)
+uint light_key(LightVolume volume)
 {
-    uvec3 at = uvec3(clamp((sphere.xyz - grid.bounds_low) * grid.bounds_scale, 0.0, 1023.0));
+    uvec3 at = uvec3(clamp((volume.centre - grid.bounds_low) * grid.bounds_scale, 0.0, 1023.0));
     uint morton = spread(at.x) | spread(at.y) << 1 | spread(at.z) << 2;
     return morton >> (30u - SORT_BITS * grid.sort_passes);
 }
@@ -33,7 +33,7 @@ void main()
     uint end = min((block + 1u) * SORT_BLOCK, state.candidates);
     for (uint i = block * SORT_BLOCK; i < end; ++i) {
         if (push.step == 0u)
-            sort_items[sort_source() + i] = uvec2(light_key(read_sphere(i)), i);
+            sort_items[sort_source() + i] = uvec2(light_key(read_volume(i)), i);
         ++digit_counts[digit_count(sort_items[sort_source() + i].x, block)];
     }
 }

@@ -5,13 +5,13 @@
 #include "lib/blocks.glsl"
 #include "lib/cell_range.glsl"
 #include "lib/intersect.glsl"
-#include "lib/light_sphere.glsl"
+#include "lib/light_volume.glsl"
 
 layout(local_size_x = ASSIGN_GROUP) in;
 
-bool may_meet_visible(vec4 sphere)
+bool may_meet_visible(LightVolume volume)
 {
-    CellRange range = cells_near(sphere);
+    CellRange range = cells_near(volume);
     if (is_empty(range))
         return false;
     return may_hold_visible(block_of(uvec3(range.low)), block_of(uvec3(range.high)));
@@ -26,11 +26,11 @@ void main()
         return;
     uint near = 0u;
     for (uint light = first; light < min(first + 32u, grid.light_count); ++light)
-        near |= uint(may_meet_range(visible, sphere_of_light(light))) << (light - first);
+        near |= uint(may_meet_range(visible, volume_of_light(light))) << (light - first);
     uint bits = 0u;
     for (; near != 0u; near &= near - 1u) {
         uint place = uint(findLSB(near));
-        bits |= uint(may_meet_visible(sphere_of_light(first + place))) << place;
+        bits |= uint(may_meet_visible(volume_of_light(first + place))) << place;
     }
     light_bits[word] = bits;
 }

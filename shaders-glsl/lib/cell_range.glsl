@@ -1,11 +1,12 @@
-// Which cells a sphere can meet: an index range per axis that holds every cell whose test (lib/intersect.glsl) passes.
+// Which cells a light can meet: an index range per axis that holds every cell whose test (lib/intersect.glsl) passes.
 //
-// The range follows from the planes that the test uses, not from the sphere alone: HS also accepts spheres that miss
-// the cell, and those are in it too. MARGIN covers rounding. What a test without half spaces accepts (TEST_BOUNDED 0) may
-// lie anywhere.
+// The range follows from the planes that the test uses and the bounding sphere, not from the sphere alone: HS also accepts
+// spheres that miss the cell, and those are in it too. MARGIN covers rounding. What a test without half spaces accepts
+// (TEST_BOUNDED 0) may lie anywhere.
 #pragma once
 
 #include "lib/cluster_space.glsl"
+#include "lib/light_volume.glsl"
 
 struct CellRange {
     ivec3 low, high; // both in the grid; empty where low > high on some axis
@@ -28,7 +29,7 @@ ivec2 cells_between(float low, float high, float error, uint count)
 
 #if !TEST_BOUNDED
 
-CellRange cells_near(vec4 sphere)
+CellRange cells_near(LightVolume volume)
 {
     return CellRange(ivec3(0), ivec3(grid.dimensions) - 1);
 }
@@ -49,8 +50,9 @@ ivec2 cells_across(float across, float depth, float radius, uint axis)
     return cells_between(cells.x, cells.y, error, count);
 }
 
-CellRange cells_near(vec4 sphere)
+CellRange cells_near(LightVolume volume)
 {
+    vec4 sphere = bounding_sphere(volume);
     float depth = -sphere.z;
     vec2 ends = max(vec2(depth - sphere.w, depth + sphere.w) / grid.origin.z, 1e-3);
     vec2 slices = log2(ends) * grid.scale.z;
@@ -62,8 +64,9 @@ CellRange cells_near(vec4 sphere)
 
 #else
 
-CellRange cells_near(vec4 sphere)
+CellRange cells_near(LightVolume volume)
 {
+    vec4 sphere = bounding_sphere(volume);
     vec3 low = (sphere.xyz - sphere.w - grid.origin) * grid.scale;
     vec3 high = (sphere.xyz + sphere.w - grid.origin) * grid.scale;
     vec3 error = 1e-5 * (abs(grid.origin) * grid.scale + vec3(grid.dimensions));

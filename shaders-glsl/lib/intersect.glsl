@@ -1,5 +1,5 @@
-// Sphere against cell: what decides whether a light gets onto a cell's list. `sphere` is (centre in the clustering
-// camera's space, radius); the test is the variant's, put together from these parts (Enhuber sections 2.6, 3.5.2):
+// Light against cell: what decides whether a light gets onto a cell's list. Its volume is a sphere: (centre in the
+// clustering camera's space, radius). The test is the variant's, put together from these parts (Enhuber sections 2.6, 3.5.2):
 //
 //   TEST_HS       half spaces: the centre lies within the cell's six planes, moved out by the radius
 //   TEST_SAT_*    no separating axis among the edges (E), the planes' normals (P), and the axes from the centre to each
@@ -16,6 +16,7 @@
 #pragma once
 
 #include "lib/cluster_space.glsl"
+#include "lib/light_volume.glsl"
 
 // Rounding of distances from a range of cells against those from its cells, in parts of the coordinates.
 const float RANGE_ROUNDING = 4e-6;
@@ -34,7 +35,7 @@ CellBounds cell_bounds(uvec3 cell)
     return range_bounds(cell, cell);
 }
 
-bool meets(CellBounds cell, vec4 sphere)
+bool sphere_meets(CellBounds cell, vec4 sphere)
 {
 #if TEST_HS || TEST_SAT_P
     if (!within_planes(cell, sphere))
@@ -63,11 +64,18 @@ bool meets(CellBounds cell, vec4 sphere)
 #endif
 }
 
-// Whether a sphere may meet some cell of a range that `range` bounds.
-bool may_meet_range(CellBounds range, vec4 sphere)
+// Whether a light's volume meets a cell. Every kind (VOLUME_*) lies in its bounding sphere, and a sphere is all of it, so
+// that the kind is not asked; what else some other kind asks belongs here and nowhere else.
+bool meets(CellBounds cell, LightVolume volume)
+{
+    return sphere_meets(cell, bounding_sphere(volume));
+}
+
+// Whether a light may meet some cell of a range that `range` bounds.
+bool may_meet_range(CellBounds range, LightVolume volume)
 {
 #if TEST_BOUNDED
-    return may_be_within_planes(range, sphere);
+    return may_be_within_planes(range, bounding_sphere(volume));
 #else
     return true;
 #endif

@@ -7,12 +7,12 @@
 #include "lib/intersect.glsl"
 #extension GL_EXT_control_flow_attributes : require
 
-shared vec4 tile_spheres[ASSIGN_GROUP];
+shared LightVolume tile_volumes[ASSIGN_GROUP];
 
 // Puts this thread's light into the tile.
-void fill_tile(vec4 sphere)
+void fill_tile(LightVolume volume)
 {
-    tile_spheres[gl_LocalInvocationID.x] = sphere;
+    tile_volumes[gl_LocalInvocationID.x] = volume;
     barrier();
 }
 
@@ -27,9 +27,9 @@ uvec2 lights_met(CellBounds cell, uint count)
 {
     uvec2 met = uvec2(0u);
     [[unroll]] for (uint i = 0u; i < 32u; ++i)
-        met.x |= uint(meets(cell, tile_spheres[i])) << i;
+        met.x |= uint(meets(cell, tile_volumes[i])) << i;
     [[unroll]] for (uint i = 0u; i < 32u; ++i)
-        met.y |= uint(meets(cell, tile_spheres[32u + i])) << i;
+        met.y |= uint(meets(cell, tile_volumes[32u + i])) << i;
     uint there = min(count, 32u), beyond = max(count, 32u) - 32u;
     return met & uvec2(there == 32u ? 0xFFFFFFFFu : (1u << there) - 1u, beyond == 32u ? 0xFFFFFFFFu : (1u << beyond) - 1u);
 }

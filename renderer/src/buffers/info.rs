@@ -56,8 +56,6 @@ impl View {
 pub enum Element {
     /// `uint`
     Word,
-    /// `vec4`
-    Vec4,
     /// A struct that fills its texels of four words.
     Struct(StructInfo),
 }
@@ -77,7 +75,7 @@ impl Texels {
         match &self.element {
             Element::Word => vk::Format::R32_UINT,
             Element::Struct(info) if !info.is_float() => vk::Format::R32G32B32A32_UINT,
-            Element::Vec4 | Element::Struct(_) => vk::Format::R32G32B32A32_SFLOAT,
+            Element::Struct(_) => vk::Format::R32G32B32A32_SFLOAT,
         }
     }
 
@@ -87,9 +85,6 @@ impl Texels {
         match &self.element {
             Element::Word => {
                 format!("uint {name}(uint index) {{ return texelFetch({view}, int(index)).x; }}\n")
-            }
-            Element::Vec4 => {
-                format!("vec4 {name}(uint index) {{ return texelFetch({view}, int(index)); }}\n")
             }
             Element::Struct(info) => info.reader(&name, &view),
         }

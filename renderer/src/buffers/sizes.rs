@@ -212,7 +212,7 @@ mod tests {
     #[test]
     fn what_the_device_does_not_hold_read_or_dispatch_is_named() {
         let small = Limits { max_storage_buffer_range: 1 << 17, ..limits() };
-        assert!(refusal(&sizes(), &small).starts_with("buffer light_spheres would need 160000 bytes"));
+        assert!(refusal(&sizes(), &small).starts_with("buffer light_volumes would need 320000 bytes"));
         let few = Limits { max_texel_buffer_elements: 29_999, ..limits() };
         let many_lights = refusal(&ClusteringSizes { capacities: few_indices(), ..sizes() }, &few);
         assert!(many_lights.starts_with("buffer lights would be read as 30000 texels"), "{many_lights}");

@@ -1,7 +1,7 @@
 //! Light lists by brute force: every visible cluster against every light.
 
 use super::scan;
-use crate::geometry::{CellTest, Grid, SphereTest};
+use crate::geometry::{CellTest, Grid, LightVolume, SphereTest};
 use crate::lights::PointLight;
 use glam::DVec3;
 
@@ -33,19 +33,14 @@ pub fn assign(
     test: SphereTest,
     epsilon: f64,
 ) -> LightLists {
-    let spheres: Vec<(DVec3, f64)> = lights
-        .iter()
-        .map(|light| DVec3::from_array(light.position.map(f64::from)))
-        .map(|world| grid.pose.inverse_transform_point(world))
-        .zip(lights.iter().map(|light| f64::from(light.r1)))
-        .collect();
+    let volumes: Vec<_> = lights.iter().map(|light| volume_of_light(grid, light)).collect();
     let (mut lengths, mut indices, mut borderline) = (Vec::new(), Vec::new(), Vec::new());
     for &cluster in visible {
         let cell = CellTest::new(test, grid, grid.cluster_at(cluster));
         let before = indices.len();
         let mut close = Vec::new();
-        for (light, &(center, radius)) in (0u32..).zip(&spheres) {
-            let margin = cell.margin(center, radius);
+        for (light, volume) in (0u32..).zip(&volumes) {
+            let margin = cell.margin(volume);
             if margin >= 0.0 {
                 indices.push(light);
             }
@@ -57,6 +52,12 @@ pub fn assign(
         borderline.push(close);
     }
     LightLists { offsets: scan(&lengths), indices, borderline }
+}
+
+/// What a light reaches, in the space of `grid`; without the slack that covers the device's rounding.
+fn volume_of_light(grid: &Grid, light: &PointLight) -> LightVolume {
+    let world = DVec3::from_array(light.position.map(f64::from));
+    LightVolume::sphere(grid.pose.inverse_transform_point(world), light.r1.into())
 }
 
 #[cfg(test)]

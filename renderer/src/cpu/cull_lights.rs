@@ -2,9 +2,8 @@
 
 use super::Visible;
 use crate::assign::block_size;
-use crate::geometry::{ClusterSpace, Grid, Plane, SphereTest};
+use crate::geometry::{ClusterSpace, Grid, LightVolume, Plane, SphereTest};
 use crate::gpu_interface::BLOCK_COLUMNS;
-use glam::DVec3;
 use std::collections::BTreeSet;
 
 /// Cells from `low` to `high`, both included; empty where `low` is beyond `high` on some axis.
@@ -104,17 +103,16 @@ impl Blocks {
     }
 }
 
-/// Culls lights, `spheres` (centre, radius) in clustering space, slack included, as the device has them.
+/// Culls lights by their `volumes`, slack included, as the device has them.
 ///
 /// `epsilon` is how small a margin makes a light borderline, in metres and in cells.
-pub fn cull_lights(visible: &Visible, spheres: &[[f32; 4]], test: SphereTest, epsilon: f64) -> Culled {
+pub fn cull_lights(visible: &Visible, volumes: &[LightVolume], test: SphereTest, epsilon: f64) -> Culled {
     let blocks = mark_blocks(visible.grid, visible.clusters);
     let bounds = RangeTest::new(visible.grid, &blocks.visible, test);
     let (mut candidates, mut borderline) = (vec![], vec![]);
-    for (light, sphere) in (0u32..).zip(spheres) {
-        let (center, radius) = center_and_radius(sphere);
-        let margin = bounds.margin(center, radius);
-        let Near { cells, close } = cells_near(visible.grid, center, radius, test, epsilon);
+    for (light, volume) in (0u32..).zip(volumes) {
+        let margin = bounds.margin(volume);
+        let Near { cells, close } = cells_near(visible.grid, volume, test, epsilon);
         if margin >= 0.0 && !cells.is_empty() && blocks.may_hold_visible(&cells) {
             candidates.push(Candidate { light, cells });
         }
@@ -123,11 +121,6 @@ pub fn cull_lights(visible: &Visible, spheres: &[[f32; 4]], test: SphereTest, ep
         }
     }
     Culled { candidates, borderline }
-}
-
-/// A sphere as the device has it, in f64.
-pub(super) fn center_and_radius(&[x, y, z, radius]: &[f32; 4]) -> (DVec3, f64) {
-    (glam::Vec3::new(x, y, z).as_dvec3(), f64::from(radius))
 }
 
 /// All visible clusters together, as one body with planes: most lights lie outside of it.
@@ -159,18 +152,18 @@ impl RangeTest {
     }
 
     /// Margin in metres: below 0 where no cell of the range can be met.
-    fn margin(&self, center: DVec3, radius: f64) -> f64 {
+    fn margin(&self, &LightVolume { centre, radius, .. }: &LightVolume) -> f64 {
         if !self.bounded {
             return f64::INFINITY;
         }
-        let at_apex = self.perspective && -center.z < APEX_RADII * radius;
+        let at_apex = self.perspective && -centre.z < APEX_RADII * radius;
         let asked = if at_apex { &self.planes[4..] } else { &self.planes[..] };
-        let grown = radius + RANGE_ROUNDING * (center.abs().element_sum() + radius);
-        asked.iter().map(|plane| plane.distance(center) + grown).fold(f64::INFINITY, f64::min)
+        let grown = radius + RANGE_ROUNDING * (centre.abs().element_sum() + radius);
+        asked.iter().map(|plane| plane.distance(centre) + grown).fold(f64::INFINITY, f64::min)
     }
 }
 
-/// Cells near a sphere.
+/// Cells near a light.
 struct Near {
     cells: CellRange,
     /// Whether an end of them is so close to where a cell begins that f32 may round to another.
@@ -180,13 +173,14 @@ struct Near {
 /// The device widens ranges by this at both ends, in cells.
 const MARGIN: f64 = 0.02;
 
-/// The cells whose planes, moved out by the radius, hold the centre, widened as on the device.
-fn cells_near(grid: &Grid, center: DVec3, radius: f64, test: SphereTest, epsilon: f64) -> Near {
+/// The cells whose planes, moved out by the radius of the bounding sphere, hold its centre, widened as on the device.
+fn cells_near(grid: &Grid, volume: &LightVolume, test: SphereTest, epsilon: f64) -> Near {
+    let &LightVolume { centre, radius, .. } = volume;
     let perspective = matches!(grid.space, ClusterSpace::Perspective { .. });
     let mut near = Near {
         cells: CellRange { low: [0; 3], high: grid.dimensions.map(|count| count - 1) },
         // Around this depth side planes begin to cut.
-        close: perspective && (-center.z - APEX_RADII * radius).abs() < epsilon,
+        close: perspective && (-centre.z - APEX_RADII * radius).abs() < epsilon,
     };
     if !test.is_bounded(!perspective) {
         near.close = false;
@@ -197,12 +191,12 @@ fn cells_near(grid: &Grid, center: DVec3, radius: f64, test: SphereTest, epsilon
             ClusterSpace::Perspective { frustum, ratio } if axis == 2 => {
                 let slice = |depth: f64| (depth / frustum.near()).max(1e-3).ln() / ratio.ln_1p();
                 let error = 1e-4 * std::f64::consts::LN_2 / ratio.ln_1p();
-                Some([slice(-center.z - radius) - error, slice(-center.z + radius) + error])
+                Some([slice(-centre.z - radius) - error, slice(-centre.z + radius) + error])
             }
             ClusterSpace::Perspective { frustum, .. } => {
                 let first = if axis == 0 { frustum.x0 } else { frustum.y0 };
                 let scale = f64::from(grid.dimensions[axis]) / frustum.size()[axis];
-                silhouette(center[axis], -center.z, radius).map(|tangents| {
+                silhouette(centre[axis], -centre.z, radius).map(|tangents| {
                     let error = 1e-4 * scale * (1.0 + tangents[0].abs().max(tangents[1].abs()));
                     [(tangents[0] - first) * scale - error, (tangents[1] - first) * scale + error]
                 })
@@ -212,7 +206,7 @@ fn cells_near(grid: &Grid, center: DVec3, radius: f64, test: SphereTest, epsilon
                 let scale = count / (max - min)[axis];
                 let error = 1e-5 * (min[axis].abs() * scale + count);
                 let at = |place: f64| (place - min[axis]) * scale;
-                Some([at(center[axis] - radius) - error, at(center[axis] + radius) + error])
+                Some([at(centre[axis] - radius) - error, at(centre[axis] + radius) + error])
             }
         };
         let Some([low, high]) = ends else { continue };
@@ -253,6 +247,7 @@ mod tests {
     use super::*;
     use crate::cpu::tests::{frustum_grid, row};
     use crate::geometry::CellTest;
+    use glam::DVec3;
 
     #[test]
     fn words_have_a_bit_for_every_block_on_every_level() {
@@ -268,9 +263,9 @@ mod tests {
     fn lights_near_nothing_visible_are_dropped() {
         let grid = row(16);
         let visible = Visible { grid: &grid, clusters: &[3, 9] };
-        let at = |x: f32, radius: f32| [x, 0.5, 0.5, radius];
-        let spheres = [at(3.5, 0.1), at(6.5, 0.2), at(12.5, 1.0), at(11.0, 1.5), at(6.5, 2.6), at(-5.0, 1.0)];
-        let culled = cull_lights(&visible, &spheres, SphereTest::Box, 1e-4);
+        let at = |x: f64, radius: f64| LightVolume::sphere(DVec3::new(x, 0.5, 0.5), radius);
+        let volumes = [at(3.5, 0.1), at(6.5, 0.2), at(12.5, 1.0), at(11.0, 1.5), at(6.5, 2.6), at(-5.0, 1.0)];
+        let culled = cull_lights(&visible, &volumes, SphereTest::Box, 1e-4);
         let lights: Vec<u32> = culled.candidates.iter().map(|candidate| candidate.light).collect();
         assert_eq!(lights, [0, 3, 4]);
         assert_eq!(culled.candidates[1].cells, CellRange { low: [9, 0, 0], high: [12, 0, 0] });
@@ -283,14 +278,13 @@ mod tests {
         let visible = Visible { grid: &grid, clusters: &clusters };
         for step in 0..200u32 {
             let turn = f64::from(step);
-            let center = DVec3::new(9.0 * turn.sin(), 6.0 * (1.7 * turn).cos(), 2.0 - 0.4 * turn);
+            let centre = DVec3::new(9.0 * turn.sin(), 6.0 * (1.7 * turn).cos(), 2.0 - 0.4 * turn);
             let radius = 0.2 + 3.0 * (0.9 * turn).sin().abs();
-            let sphere = center.as_vec3().extend(radius as f32).to_array();
-            let culled = cull_lights(&visible, &[sphere], SphereTest::HALF_SPACES, 1e-4);
-            let (center, radius) = center_and_radius(&sphere);
+            let volume = LightVolume::sphere(centre, radius);
+            let culled = cull_lights(&visible, &[volume], SphereTest::HALF_SPACES, 1e-4);
             for &cluster in &clusters {
                 let cell = grid.cluster_at(cluster);
-                if CellTest::new(SphereTest::HALF_SPACES, &grid, cell).margin(center, radius) >= 0.0 {
+                if CellTest::new(SphereTest::HALF_SPACES, &grid, cell).margin(&volume) >= 0.0 {
                     let cells = culled.candidates.first().expect("it is a candidate").cells;
                     assert!(cells.overlaps(&CellRange { low: cell, high: cell }), "{cell:?} of {cells:?}");
                 }

@@ -1,9 +1,8 @@
 //! The light hierarchy: how it is built from the candidates, and how visible clusters go down it.
 
-use super::cull_lights::center_and_radius;
 use super::{FoundLists, Visible};
 use crate::assign::{sort_passes, tree_depth};
-use crate::geometry::{CellTest, ClusterSpace, Grid, Plane, SphereTest};
+use crate::geometry::{CellTest, ClusterSpace, Grid, LightVolume, Plane, SphereTest};
 use crate::gpu_interface::{SORT_BITS, TREE_WIDTH};
 use glam::{DVec3, Vec3};
 
@@ -19,19 +18,19 @@ pub struct Key {
 /// Places along an axis that a Morton code tells apart.
 const PLACES: f64 = 1024.0;
 
-/// The keys of candidates (`spheres`, clustering space) out of `lights` lights; `epsilon`, in places, is how close to the
+/// The keys of candidates (their `volumes`) out of `lights` lights; `epsilon`, in places, is how close to the
 /// next place one is borderline.
-pub fn keys(grid: &Grid, spheres: &[[f32; 4]], lights: u32, epsilon: f64) -> Vec<Key> {
+pub fn keys(grid: &Grid, volumes: &[LightVolume], lights: u32, epsilon: f64) -> Vec<Key> {
     let (low, high) = grid.bounds();
     let kept_bits = SORT_BITS * sort_passes(lights);
-    let key = |sphere: &[f32; 4]| {
-        let at = (center_and_radius(sphere).0 - low) * PLACES / (high - low);
+    let key = |volume: &LightVolume| {
+        let at = (volume.centre - low) * PLACES / (high - low);
         let within = at.clamp(DVec3::ZERO, DVec3::splat(PLACES - 1.0));
         let morton = interleave(within.to_array().map(|place| place as u32));
         let close = (at - at.round()).abs().min_element() < epsilon;
         Key { key: morton >> (30 - kept_bits), borderline: close }
     };
-    spheres.iter().map(key).collect()
+    volumes.iter().map(key).collect()
 }
 
 /// Ten bits of each of three numbers, in turn, x lowest.
@@ -62,28 +61,31 @@ pub struct Node {
 pub struct Tree {
     /// The nodes of each depth from 1 on, as far as there are lights under them.
     pub depths: Vec<Vec<Node>>,
-    /// The lights in order (clustering space: centre, radius).
-    pub spheres: Vec<[f32; 4]>,
+    /// The lights in order.
+    pub volumes: Vec<LightVolume>,
 }
 
 /// Rounding of the sums in node tests and of the boxes themselves, in parts of the coordinates.
 const NODE_SLACK: f32 = 4e-6;
 
 /// The tree over candidates in order, out of `lights` lights, in f32 as on the device.
-pub fn build_nodes(spheres: Vec<[f32; 4]>, lights: u32) -> Tree {
-    let point = |&[x, y, z, radius]: &[f32; 4]| (Vec3::new(x, y, z), Vec3::new(x, y, z), radius);
+pub fn build_nodes(volumes: Vec<LightVolume>, lights: u32) -> Tree {
+    let point = |volume: &LightVolume| {
+        let centre = volume.centre.as_vec3();
+        (centre, centre, volume.radius as f32)
+    };
     let boxed = |node: &Node| (node.centre - node.half_extent, node.centre + node.half_extent, node.radius);
     let width = TREE_WIDTH as usize;
     let mut depths: Vec<Vec<Node>> = vec![];
     for _ in 1..tree_depth(lights) {
         let nodes = match depths.last() {
-            None => spheres.chunks(width).map(|children| node(children.iter().map(point))).collect(),
+            None => volumes.chunks(width).map(|children| node(children.iter().map(point))).collect(),
             Some(below) => below.chunks(width).map(|children| node(children.iter().map(boxed))).collect(),
         };
         depths.push(nodes);
     }
     depths.reverse();
-    Tree { depths, spheres }
+    Tree { depths, volumes }
 }
 
 /// The node around boxes (low, high) with radii.
@@ -156,14 +158,13 @@ impl Walk<'_> {
         }
         found.tests += children.len() as u64;
         for light in children {
-            let (center, radius) = center_and_radius(&self.tree.spheres[light]);
-            found.lists.add(light as u32, self.lights.margin(center, radius), self.epsilon);
+            found.lists.add(light as u32, self.lights.margin(&self.tree.volumes[light]), self.epsilon);
         }
     }
 
     /// Places under a node: nodes of the next depth, or lights.
     fn children(&self, depth: usize, place: usize) -> std::ops::Range<usize> {
-        let there = self.tree.depths.get(depth).map_or(self.tree.spheres.len(), Vec::len);
+        let there = self.tree.depths.get(depth).map_or(self.tree.volumes.len(), Vec::len);
         let width = TREE_WIDTH as usize;
         place * width..((place + 1) * width).min(there)
     }
@@ -213,7 +214,7 @@ impl NodeTest {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cpu::tests::{frustum_grid, row, spheres};
+    use crate::cpu::tests::{frustum_grid, row, volumes};
 
     #[test]
     fn keys_interleave_the_places_and_order_is_stable() {
@@ -221,21 +222,22 @@ mod tests {
         assert_eq!(interleave([0b11, 0b01, 0b10]), 0b101_011);
         assert_eq!(interleave([1023; 3]), (1 << 30) - 1);
         assert_eq!(sorted(&[5, 2, 5, 0, 2]), [3, 1, 4, 0, 2]);
-        let low = keys(&row(4), &[[0.001, 0.001, 0.001, 1.0], [9.0, 9.0, 9.0, 1.0]], 2, 1e-3);
+        let ends = [0.001, 9.0].map(|x| LightVolume::sphere(DVec3::splat(x), 1.0));
+        let low = keys(&row(4), &ends, 2, 1e-3);
         assert_eq!((low[0].key, low[1].key), (0, (1 << 7) - 1));
     }
 
     #[test]
     fn nodes_hold_what_is_under_them() {
-        let spheres = spheres(100);
-        let tree = build_nodes(spheres.clone(), 100);
+        let volumes = volumes(100);
+        let tree = build_nodes(volumes.clone(), 100);
         assert_eq!(tree.depths.iter().map(Vec::len).collect::<Vec<_>>(), [2, 13]);
         for (depth, nodes) in tree.depths.iter().enumerate() {
             let under = 8usize.pow((tree.depths.len() - depth) as u32);
-            for (node, lights) in nodes.iter().zip(spheres.chunks(under)) {
-                for &[x, y, z, radius] in lights {
-                    let away = (Vec3::new(x, y, z) - node.centre).abs();
-                    assert!(away.cmple(node.half_extent).all() && radius <= node.radius);
+            for (node, lights) in nodes.iter().zip(volumes.chunks(under)) {
+                for light in lights {
+                    let away = (light.centre.as_vec3() - node.centre).abs();
+                    assert!(away.cmple(node.half_extent).all() && light.radius <= node.radius.into());
                 }
             }
         }
@@ -244,17 +246,14 @@ mod tests {
     #[test]
     fn the_tree_finds_what_testing_every_light_finds() {
         let grid = frustum_grid();
-        let spheres = spheres(300);
+        let volumes = volumes(300);
         let clusters: Vec<u32> = (0..grid.cluster_count() as u32).collect();
         let visible = Visible { grid: &grid, clusters: &clusters };
-        let descent = descend(&visible, &build_nodes(spheres.clone(), 300), SphereTest::Exact, 0.0);
+        let descent = descend(&visible, &build_nodes(volumes.clone(), 300), SphereTest::Exact, 0.0);
         let mut found = 0;
         for (list, &cluster) in descent.lists.lights.iter().zip(&clusters) {
             let cell = CellTest::new(SphereTest::Exact, &grid, grid.cluster_at(cluster));
-            let met = |light: &u32| {
-                let (center, radius) = center_and_radius(&spheres[*light as usize]);
-                cell.margin(center, radius) >= 0.0
-            };
+            let met = |light: &u32| cell.margin(&volumes[*light as usize]) >= 0.0;
             assert_eq!(*list, (0..300).filter(met).collect::<Vec<u32>>());
             found += list.len();
         }

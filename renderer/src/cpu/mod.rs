@@ -56,8 +56,8 @@ pub struct Visible<'a> {
 #[cfg(test)]
 mod tests {
     use crate::geometry::views::Pose;
-    use crate::geometry::{ClusterSpace, Frustum, Grid};
-    use glam::DVec3;
+    use crate::geometry::{ClusterSpace, Frustum, Grid, LightVolume};
+    use glam::{DVec3, Vec3};
 
     /// Unit cells along the x axis.
     pub fn row(cells: u32) -> Grid {
@@ -77,14 +77,15 @@ mod tests {
         }
     }
 
-    /// Spheres in front of the camera, spread evenly enough.
-    pub fn spheres(count: u32) -> Vec<[f32; 4]> {
+    /// Lights in front of the camera, spread evenly enough, in numbers that f32 has.
+    pub fn volumes(count: u32) -> Vec<LightVolume> {
         let part = |i: u32, step: f32| (i as f32 * step).fract();
         (0..count)
             .map(|i| {
                 let depth = 1.0 + 30.0 * part(i, 0.618_034);
                 let across = |step: f32| depth * (2.0 * part(i, step) - 1.0);
-                [across(0.414_214), across(0.732_051), -depth, 0.3 + 3.0 * part(i, 0.236_068)]
+                let centre = Vec3::new(across(0.414_214), across(0.732_051), -depth);
+                LightVolume::sphere(centre.as_dvec3(), (0.3 + 3.0 * part(i, 0.236_068)).into())
             })
             .collect()
     }

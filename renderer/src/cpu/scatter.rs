@@ -1,8 +1,8 @@
 //! Scattering: candidates to groups of visible clusters, and each group against its own.
 
-use super::cull_lights::{Candidate, CellRange, center_and_radius};
+use super::cull_lights::{Candidate, CellRange};
 use super::{FoundLists, Visible};
-use crate::geometry::{CellTest, SphereTest};
+use crate::geometry::{CellTest, LightVolume, SphereTest};
 use crate::gpu_interface::ASSIGN_GROUP;
 
 /// A group: up to [`ASSIGN_GROUP`] visible clusters that follow each other.
@@ -43,7 +43,7 @@ pub fn scatter_groups(visible: &Visible, candidates: &[Candidate]) -> Vec<Group>
 pub fn scatter(
     visible: &Visible,
     groups: &[Group],
-    spheres: &[[f32; 4]],
+    volumes: &[LightVolume],
     test: SphereTest,
     epsilon: f64,
 ) -> (FoundLists, u64) {
@@ -54,8 +54,7 @@ pub fn scatter(
             lists.start_list();
             tests += group.candidates.len() as u64;
             for &number in &group.candidates {
-                let (center, radius) = center_and_radius(&spheres[number as usize]);
-                lists.add(number, cell.margin(center, radius), epsilon);
+                lists.add(number, cell.margin(&volumes[number as usize]), epsilon);
             }
         }
     }
@@ -67,20 +66,21 @@ mod tests {
     use super::*;
     use crate::cpu::cull_lights;
     use crate::cpu::tests::row;
+    use glam::DVec3;
 
     #[test]
     fn groups_take_the_candidates_of_their_cells_and_fill_whole_tiles() {
         let grid = row(200);
         let clusters: Vec<u32> = (0..130).collect();
         let visible = Visible { grid: &grid, clusters: &clusters };
-        let at = |x: f32| [x, 0.5, 0.5, 0.7];
-        let spheres: Vec<[f32; 4]> =
+        let at = |x: f64| LightVolume::sphere(DVec3::new(x, 0.5, 0.5), 0.7);
+        let volumes: Vec<_> =
             [at(10.5), at(64.0), at(150.0), at(129.5)].into_iter().chain([at(80.5); 70]).collect();
-        let culled = cull_lights(&visible, &spheres, SphereTest::Box, 1e-4);
+        let culled = cull_lights(&visible, &volumes, SphereTest::Box, 1e-4);
         let groups = scatter_groups(&visible, &culled.candidates);
         assert_eq!(groups.iter().map(|group| group.candidates.len()).collect::<Vec<_>>(), [2, 71, 1]);
         assert_eq!(groups.iter().map(|group| group.first_tile).collect::<Vec<_>>(), [0, 1, 3]);
-        let kept: Vec<[f32; 4]> = culled.candidates.iter().map(|c| spheres[c.light as usize]).collect();
+        let kept: Vec<_> = culled.candidates.iter().map(|c| volumes[c.light as usize]).collect();
         let (lists, tests) = scatter(&visible, &groups, &kept, SphereTest::Box, 1e-4);
         assert_eq!(tests, 64 * 2 + 64 * 71 + 2);
         assert_eq!((&lists.lights[10], &lists.lights[63], &lists.lights[64]), (&vec![0], &vec![1], &vec![1]));

@@ -5,6 +5,7 @@ use crate::Result;
 use crate::buffers::BufferName;
 use crate::clustering::{grid_data, gridless_data, view_data};
 use crate::culling::Culling;
+use crate::geometry::VolumeKind;
 use crate::gpu_interface::{DrawCounts, LightData};
 use crate::lights::{FrameLights, PointLight};
 use glam::{DVec3, Vec3};
@@ -112,6 +113,7 @@ fn light_data(light: &PointLight, origin: DVec3) -> LightData {
         intensity: light.intensity,
         cutoff: light.cutoff,
         r0: light.r0,
+        kind: VolumeKind::Sphere as u32,
         ..Default::default()
     }
 }

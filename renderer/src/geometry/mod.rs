@@ -1,4 +1,4 @@
-//! Clustering geometry, pure and in f64: frusta, enclosing frusta, cluster spaces, sphere tests.
+//! Clustering geometry, pure and in f64: frusta, enclosing frusta, cluster spaces, tests of light volumes.
 //! It knows neither files nor GPU.
 //!
 //! ```text
@@ -7,6 +7,7 @@
 //!                                                              └─ Ortho: bounds, from metres ─────────┘
 //! ```
 
+mod cell_test;
 mod dimensions;
 mod displaced;
 mod enclosing;
@@ -14,10 +15,11 @@ mod frustum;
 mod grid;
 mod piece;
 mod sharing;
-mod sphere;
 mod sphere_test;
 pub mod views;
+mod volume;
 
+pub use cell_test::{CellTest, Plane, axis_box, half_space};
 pub use dimensions::{
     PerspectiveDimensions, average_volume, from_metres, from_pixels, from_volume, side_in_tangents,
     tiles_from_pixels,
@@ -27,5 +29,5 @@ pub use enclosing::{Enclosing, enclosing};
 pub use frustum::Frustum;
 pub use grid::{CellShape, ClusterSpace, Grid, cell_at};
 pub use sharing::Sharing;
-pub use sphere::{CellTest, Plane, axis_box, half_space};
 pub use sphere_test::{Candidates, SphereTest};
+pub use volume::{LightVolume, VolumeKind};

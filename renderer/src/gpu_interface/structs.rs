@@ -85,7 +85,21 @@ gpu_struct! {
 }
 
 gpu_struct! {
-    /// A point light in world space.
+    /// What a light reaches, in clustering space. What a kind needs besides the bounding sphere (the axis and the angles
+    /// of a cone) goes behind `kind`: three words of the second texel are free, and a texel that a shader does not use
+    /// is not fetched.
+    pub struct LightVolume in texels {
+        /// Of the bounding sphere, metres.
+        pub centre: [f32; 3],
+        /// Of the bounding sphere, metres, slack included.
+        pub radius: f32,
+        /// A [`VolumeKind`](crate::geometry::VolumeKind) as a number.
+        pub kind: u32,
+    }
+}
+
+gpu_struct! {
+    /// A light in world space.
     pub struct LightData in texels {
         /// Metres.
         pub position: [f32; 3],
@@ -99,6 +113,8 @@ gpu_struct! {
         pub cutoff: f32,
         /// Near radius, metres.
         pub r0: f32,
+        /// Of the volume that it reaches: a [`VolumeKind`](crate::geometry::VolumeKind) as a number.
+        pub kind: u32,
     }
 }
 

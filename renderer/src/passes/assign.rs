@@ -2,7 +2,7 @@
 //! (Gelderen section 5.3).
 //!
 //! ```text
-//! brute      light_spheres ──────────────────────────────> meet ┐
+//! brute      light_volumes ──────────────────────────────> meet ┐
 //! hierarchy  light_nodes ────────────────────────────────> meet ┼> light_masks ─> list_lengths, then light_indices
 //! scatter    candidates ─> groups ─> tiles, group_lights ─> meet ┘
 //! ```
@@ -29,7 +29,7 @@ pub fn transform_lights(r: &mut Recorder, frame: &Frame, _lights: Lights, visibl
             &frame.pipelines.clustered().transform_lights,
             frame.buffers(visible.clustering),
             Size::threads(frame.light_count, ASSIGN_GROUP),
-            (set(&[B::Lights]), set(&[B::LightSpheres])),
+            (set(&[B::Lights]), set(&[B::LightVolumes])),
         ));
     });
 }
@@ -98,9 +98,9 @@ fn meet(
     (reads, writes): (BufferSet, BufferSet),
 ) {
     let lights = match frame.assigner {
-        Assigner::Brute => set(&[B::LightSpheres]),
-        Assigner::Hierarchy => set(&[B::TreeSpheres, B::TreeLights, B::LightNodes]),
-        Assigner::Scatter => set(&[B::LightSpheres, B::Groups, B::TileGroups, B::GroupLights]),
+        Assigner::Brute => set(&[B::LightVolumes]),
+        Assigner::Hierarchy => set(&[B::TreeVolumes, B::TreeLights, B::LightNodes]),
+        Assigner::Scatter => set(&[B::LightVolumes, B::Groups, B::TileGroups, B::GroupLights]),
     };
     let reads = reads | lights | set(&[B::VisibleClusters]);
     indirect(r, frame, visible, dispatch, (reads, writes));

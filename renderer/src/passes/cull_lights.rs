@@ -3,7 +3,7 @@
 //! ```text
 //! visible_clusters ──mark_blocks──> block_bits ─┐
 //! lights ───────────────────────────────────────┴─cull_lights──> light_bits ──scan──> ranks
-//! ranks, lights ──list_candidates──> candidates, light_spheres
+//! ranks, lights ──list_candidates──> candidates, light_volumes
 //! ```
 
 use super::handles::{Lights, VisibleClusters};
@@ -30,7 +30,7 @@ pub fn cull_lights(r: &mut Recorder, frame: &Frame, _lights: Lights, visible: Vi
         run(r, &pipelines.mark_blocks, Size::Indirect(DISPATCH_LISTS), (clusters, marked));
         run(r, &pipelines.cull_lights, words, (lights | blocks, bits));
         rank_lights(r, frame, visible);
-        let candidates = set(&[B::LightSpheres, B::Candidates]);
+        let candidates = set(&[B::LightVolumes, B::Candidates]);
         run(r, &pipelines.list_candidates, words, (lights | bits, candidates));
     });
 }

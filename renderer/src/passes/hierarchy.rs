@@ -22,14 +22,14 @@ pub fn build_hierarchy(r: &mut Recorder, frame: &Frame, visible: VisibleClusters
             r.dispatch(&Dispatch { push: Push::step(step), ..dispatch });
         };
         let (state, sorted) = (set(&[B::State]), set(&[B::SortItems, B::DigitCounts]));
-        let lights = state | set(&[B::LightSpheres]);
+        let lights = state | set(&[B::LightVolumes]);
         for step in 0..sort_passes(frame.light_count) {
             run(r, &pipelines.count_digits, (DISPATCH_SORT, step), (lights, sorted));
             digit_offsets(r, frame, visible, step);
             run(r, &pipelines.reorder, (DISPATCH_SORT, step), (state, sorted));
         }
         let (reads, nodes) =
-            (lights | set(&[B::SortItems]), set(&[B::TreeSpheres, B::TreeLights, B::LightNodes]));
+            (lights | set(&[B::SortItems]), set(&[B::TreeVolumes, B::TreeLights, B::LightNodes]));
         for depth in (1..tree_depth(frame.light_count)).rev() {
             run(r, &pipelines.build_nodes, (DISPATCH_NODES + depth - 1, depth), (reads, nodes));
         }

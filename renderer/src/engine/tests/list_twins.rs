@@ -5,8 +5,8 @@ use super::*;
 use crate::assign::{sort_passes, tree_depth};
 use crate::config::{Assign, Test};
 use crate::cpu::{Candidate, CellRange, Culled, FoundLists, Visible};
-use crate::geometry::SphereTest;
-use crate::gpu_interface::{BLOCK_WORDS, COUNTER_COUNT, GridData, TREE_WIDTH};
+use crate::geometry::{LightVolume, SphereTest, VolumeKind};
+use crate::gpu_interface::{self as device, BLOCK_WORDS, COUNTER_COUNT, GridData, TREE_WIDTH};
 use crate::measure::DeviceCounts;
 use crate::passes::{cull_lights, hierarchy};
 use std::mem::offset_of;
@@ -21,8 +21,8 @@ struct Culling {
     visible: Vec<u32>,
     test: SphereTest,
     lights: u32,
-    /// All lights in clustering space.
-    spheres: Vec<[f32; 4]>,
+    /// Of all lights.
+    volumes: Vec<LightVolume>,
 }
 
 impl Culling {
@@ -39,12 +39,12 @@ impl Culling {
             let lights = light_upload::record(r, frame);
             assign::transform_lights(r, frame, lights, given());
         });
-        let spheres = bench.spheres(BufferName::LightSpheres, lights.len());
+        let volumes = bench.volumes(BufferName::LightVolumes, lights.len());
         bench.run(|r, frame| {
             let lights = light_upload::record(r, frame);
             cull_lights::cull_lights(r, frame, lights, given());
         });
-        Self { bench, grid, visible, test: test.of(&method), lights: lights.len() as u32, spheres }
+        Self { bench, grid, visible, test: test.of(&method), lights: lights.len() as u32, volumes }
     }
 
     fn visible(&self) -> Visible<'_> {
@@ -56,8 +56,8 @@ impl Culling {
         self.bench.engine.states(&self.bench.session, 0)[0]
     }
 
-    /// What the device has as candidates, and as their spheres.
-    fn candidates(&mut self) -> (Vec<Candidate>, Vec<[f32; 4]>) {
+    /// What the device has as candidates, and as their volumes.
+    fn candidates(&mut self) -> (Vec<Candidate>, Vec<LightVolume>) {
         let count = self.state().candidates as usize;
         let words = self.bench.download(BufferName::Candidates, 4 * count.max(1));
         let unpacked = words
@@ -65,7 +65,7 @@ impl Culling {
             .take(count)
             .map(|w| Candidate { light: w[0], cells: unpack([w[1], w[2], w[3]]) });
         let unpacked = unpacked.collect();
-        (unpacked, self.bench.spheres(BufferName::LightSpheres, count))
+        (unpacked, self.bench.volumes(BufferName::LightVolumes, count))
     }
 
     /// Counts lights, and gives how many tests that took.
@@ -91,9 +91,18 @@ impl Culling {
 }
 
 impl Bench {
-    fn spheres(&mut self, name: BufferName, count: usize) -> Vec<[f32; 4]> {
-        let words = self.download(name, 4 * count.max(1));
-        words.chunks_exact(4).take(count).map(|w| std::array::from_fn(|i| f32::from_bits(w[i]))).collect()
+    fn volumes(&mut self, name: BufferName, count: usize) -> Vec<LightVolume> {
+        let words = self.download(name, count.max(1) * size_of::<device::LightVolume>() / 4);
+        bytemuck::cast_slice(&words)[..count].iter().map(volume).collect()
+    }
+}
+
+/// A volume as the device has it.
+fn volume(device: &device::LightVolume) -> LightVolume {
+    LightVolume {
+        kind: VolumeKind::ALL[device.kind as usize],
+        centre: glam::Vec3::from(device.centre).as_dvec3(),
+        radius: device.radius.into(),
     }
 }
 
@@ -124,15 +133,15 @@ fn culled_lights_equal_their_twin() {
         let blocks = cpu::mark_blocks(&culling.grid, &culling.visible);
         let words = culling.bench.download(BufferName::BlockBits, BLOCK_WORDS as usize);
         assert!(words == blocks.words(), "case {case}: other blocks");
-        let (device, spheres) = culling.candidates();
-        let twin = cpu::cull_lights(&culling.visible(), &culling.spheres, culling.test, EPSILON);
+        let (device, volumes) = culling.candidates();
+        let twin = cpu::cull_lights(&culling.visible(), &culling.volumes, culling.test, EPSILON);
         let Culled { candidates, borderline } = twin;
         let sure = |list: &[Candidate]| -> Vec<Candidate> {
             list.iter().filter(|c| borderline.binary_search(&c.light).is_err()).copied().collect()
         };
         assert_eq!(sure(&device), sure(&candidates), "case {case}");
-        for (candidate, sphere) in device.iter().zip(&spheres) {
-            assert_eq!(sphere, &culling.spheres[candidate.light as usize], "case {case}");
+        for (candidate, volume) in device.iter().zip(&volumes) {
+            assert_eq!(volume, &culling.volumes[candidate.light as usize], "case {case}");
         }
         assert!(device.is_sorted_by_key(|candidate| candidate.light));
         assert!(borderline.len() * 10 < lights.len().max(60), "case {case}: {} too close", borderline.len());
@@ -144,11 +153,11 @@ fn culled_lights_equal_their_twin() {
 fn the_hierarchy_equals_its_twin() {
     for (case, (method, test, lights)) in cases().into_iter().enumerate() {
         let mut culling = Culling::new(Assign::Hierarchy, method, test, &lights);
-        let (candidates, spheres) = culling.candidates();
+        let (candidates, volumes) = culling.candidates();
         culling.bench.run(|r, frame| hierarchy::build_hierarchy(r, frame, given()));
-        let order = sorted_as_their_twin(&mut culling, &spheres);
-        let sorted: Vec<[f32; 4]> = order.iter().map(|&number| spheres[number as usize]).collect();
-        assert!(culling.bench.spheres(BufferName::TreeSpheres, sorted.len()) == sorted, "case {case}");
+        let order = sorted_as_their_twin(&mut culling, &volumes);
+        let sorted: Vec<LightVolume> = order.iter().map(|&number| volumes[number as usize]).collect();
+        assert!(culling.bench.volumes(BufferName::TreeVolumes, sorted.len()) == sorted, "case {case}");
         assert_eq!(culling.bench.download(BufferName::TreeLights, order.len()), order, "case {case}");
         let tree = cpu::build_nodes(sorted, culling.lights);
         nodes_equal(&mut culling, &tree);
@@ -162,12 +171,12 @@ fn the_hierarchy_equals_its_twin() {
 }
 
 /// Checks keys and order, and gives the order: numbers of candidates.
-fn sorted_as_their_twin(culling: &mut Culling, spheres: &[[f32; 4]]) -> Vec<u32> {
-    let twin = cpu::keys(&culling.grid, spheres, culling.lights, 0.02);
+fn sorted_as_their_twin(culling: &mut Culling, volumes: &[LightVolume]) -> Vec<u32> {
+    let twin = cpu::keys(&culling.grid, volumes, culling.lights, 0.02);
     let half = ((sort_passes(culling.lights) - 1) & 1) * culling.lights;
-    let words = culling.bench.download(BufferName::SortItems, 2 * (half as usize + spheres.len()));
+    let words = culling.bench.download(BufferName::SortItems, 2 * (half as usize + volumes.len()));
     let items: Vec<(u32, u32)> = words[2 * half as usize..].chunks_exact(2).map(|w| (w[0], w[1])).collect();
-    let mut keys = vec![u32::MAX; spheres.len()];
+    let mut keys = vec![u32::MAX; volumes.len()];
     for &(key, number) in &items {
         keys[number as usize] = key;
     }
@@ -175,7 +184,7 @@ fn sorted_as_their_twin(culling: &mut Culling, spheres: &[[f32; 4]]) -> Vec<u32>
         assert!(twin.borderline || *key == twin.key, "key {key:b}, not {:b}", twin.key);
     }
     let close = twin.iter().filter(|key| key.borderline).count();
-    assert!(close * 5 < spheres.len().max(25), "{close} keys are too close to call");
+    assert!(close * 5 < volumes.len().max(25), "{close} keys are too close to call");
     let order: Vec<u32> = items.into_iter().map(|(_, number)| number).collect();
     assert_eq!(order, cpu::sorted(&keys));
     order
@@ -217,7 +226,7 @@ fn lists_equal(device: &Lists, twin: &FoundLists, light_of: impl Fn(u32) -> u32)
 fn scattering_equals_its_twin() {
     for (case, (method, test, lights)) in cases().into_iter().enumerate() {
         let mut culling = Culling::new(Assign::Scatter, method, test, &lights);
-        let (candidates, spheres) = culling.candidates();
+        let (candidates, volumes) = culling.candidates();
         let tests = culling.count();
         let state = culling.state();
         let groups = cpu::scatter_groups(&culling.visible(), &candidates);
@@ -236,7 +245,7 @@ fn scattering_equals_its_twin() {
             let listed = &group_lights[first..first + count as usize];
             assert_eq!(cpu::sort_lists(listed, |n| n), group.candidates, "case {case}, group {number}");
         }
-        let (lists, twin_tests) = cpu::scatter(&culling.visible(), &groups, &spheres, culling.test, EPSILON);
+        let (lists, twin_tests) = cpu::scatter(&culling.visible(), &groups, &volumes, culling.test, EPSILON);
         assert_eq!(tests, twin_tests, "case {case}");
         lists_equal(&culling.finish(), &lists, |number| candidates[number as usize].light);
     }

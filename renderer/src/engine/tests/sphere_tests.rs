@@ -3,7 +3,7 @@
 use super::assign_equality::random_lights;
 use super::*;
 use crate::config::Test;
-use crate::geometry::{CellTest, SphereTest};
+use crate::geometry::{CellTest, LightVolume, SphereTest};
 
 /// Each part of each test, alone and with others.
 const TESTS: [&str; 9] =
@@ -97,7 +97,8 @@ fn touching_lights(grid: &Grid, visible: &[u32], farthest: f64) -> Vec<(u32, Poi
         let local = grid.point_at(inside) + away * farthest * 1e-3f64.powf(unit());
         let position = grid.pose.transform_point(local).as_vec3();
         let center = grid.pose.inverse_transform_point(position.as_dvec3());
-        let distance = -CellTest::new(SphereTest::Exact, grid, cell).margin(center, 0.0);
+        let distance =
+            -CellTest::new(SphereTest::Exact, grid, cell).margin(&LightVolume::sphere(center, 0.0));
         if distance > 0.01 {
             let r1 = (distance as f32).next_up();
             found.push((cluster, PointLight { position: position.to_array(), r1, ..lights(1)[0] }));

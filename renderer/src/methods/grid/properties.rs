@@ -3,7 +3,7 @@
 use super::plan;
 use crate::geometry::views::{Mirror, Pose, View};
 use crate::geometry::{
-    CellTest, ClusterSpace, DisplacedVolume, Frustum, Grid, SphereTest, axis_box, half_space,
+    CellTest, ClusterSpace, DisplacedVolume, Frustum, Grid, LightVolume, SphereTest, axis_box, half_space,
 };
 use crate::methods::{Sharing, Space};
 use glam::{DQuat, DVec3, EulerRot};
@@ -194,7 +194,8 @@ proptest! {
         prop_assert!(half_space(&grid, cell, center, radius) >= -slack);
         prop_assert!(axis_box(&grid, cell, center, radius) >= -slack);
         for test in tests() {
-            prop_assert!(CellTest::new(test, &grid, cell).margin(center, radius) >= -slack, "{test}");
+            let volume = LightVolume::sphere(center, radius);
+            prop_assert!(CellTest::new(test, &grid, cell).margin(&volume) >= -slack, "{test}");
         }
     }
 
@@ -208,7 +209,8 @@ proptest! {
         let direction = (towards - 0.5).normalize_or(DVec3::X);
         let point = grid.point_at(DVec3::from_array(cell.map(f64::from)) + in_cell);
         let center = point + direction * radius * reach;
-        let margin = |test| CellTest::new(test, &grid, cell).margin(center, radius);
+        let volume = LightVolume::sphere(center, radius);
+        let margin = |test| CellTest::new(test, &grid, cell).margin(&volume);
         let slack = 1e-8 * (1.0 + center.length());
         let exact = radius - surface_distance(&grid, cell, center);
         prop_assert!((margin(SphereTest::Exact) - exact).abs() < slack, "{} {exact}", margin(SphereTest::Exact));

@@ -1,10 +1,10 @@
-//! Which spheres (lights) meet a cluster: conservative and exact tests.
+//! Which light volumes meet a cluster: conservative and exact tests.
 //!
 //! Tests answer with a signed margin in metres: at least 0 means that they meet, and its size tells how close
 //! the answer was, so that a comparison with f32 results can leave borderline pairs out.
 
 use super::piece::FrustumPiece;
-use super::{Candidates, ClusterSpace, Frustum, Grid, SphereTest};
+use super::{Candidates, ClusterSpace, Frustum, Grid, LightVolume, SphereTest, VolumeKind};
 use glam::DVec3;
 
 /// A plane by its unit normal, which points inwards, and its offset.
@@ -54,7 +54,7 @@ impl Grid {
     }
 }
 
-/// A cluster made ready to be tested against many spheres.
+/// A cluster made ready to be tested against many light volumes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CellTest {
     test: SphereTest,
@@ -75,9 +75,15 @@ impl CellTest {
         Self { test, planes: grid.cell_planes(cell), corners, piece }
     }
 
-    /// Signed margin in metres: at least 0 where the sphere meets the cluster, by this test. Its size is how far the
-    /// sphere or the corners would have to move for another answer, at least. `center` in clustering space.
-    pub fn margin(&self, center: DVec3, radius: f64) -> f64 {
+    /// Signed margin in metres: at least 0 where the volume meets the cluster, by this test. Its size is how far the
+    /// volume or the corners would have to move for another answer, at least.
+    pub fn margin(&self, volume: &LightVolume) -> f64 {
+        match volume.kind {
+            VolumeKind::Sphere => self.sphere_margin(volume.centre, volume.radius),
+        }
+    }
+
+    fn sphere_margin(&self, center: DVec3, radius: f64) -> f64 {
         match (self.test, &self.piece) {
             (SphereTest::Separating(candidates), _) => self.unseparated(candidates, center, radius),
             (SphereTest::Exact, Some(piece)) => radius - piece.distance(center),
@@ -149,12 +155,12 @@ const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 4], [1, 5], [2, 6], [3, 7]];
 
 /// Margin of [`SphereTest::HALF_SPACES`] between a cluster and a sphere in clustering space, metres.
 pub fn half_space(grid: &Grid, cell: [u32; 3], center: DVec3, radius: f64) -> f64 {
-    CellTest::new(SphereTest::HALF_SPACES, grid, cell).margin(center, radius)
+    CellTest::new(SphereTest::HALF_SPACES, grid, cell).sphere_margin(center, radius)
 }
 
 /// Margin of [`SphereTest::Box`] between a cluster and a sphere in clustering space, metres.
 pub fn axis_box(grid: &Grid, cell: [u32; 3], center: DVec3, radius: f64) -> f64 {
-    CellTest::new(SphereTest::Box, grid, cell).margin(center, radius)
+    CellTest::new(SphereTest::Box, grid, cell).sphere_margin(center, radius)
 }
 
 #[cfg(test)]

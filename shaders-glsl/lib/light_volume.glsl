@@ -1,0 +1,24 @@
+// Lights as volumes in the clustering camera's space. The bounding sphere's radius grows by the slack that covers rounding,
+// so that a light is never lost at a cell's boundary.
+#pragma once
+
+#include "generated/gpu_interface.glsl"
+
+// The same bits wherever it is called: all ways of assignment test the same numbers.
+LightVolume volume_of_light(uint light)
+{
+    LightData place = read_light(light);
+    precise vec3 centre = (grid.clustering_from_world * vec4(place.position, 1.0)).xyz;
+    precise float radius = place.r1 + max(grid.slack, grid.slack_per_radius * place.r1);
+    LightVolume volume;
+    volume.centre = centre;
+    volume.radius = radius;
+    volume.kind = place.kind;
+    return volume;
+}
+
+// (centre, radius) of the sphere that holds all of the volume.
+vec4 bounding_sphere(LightVolume volume)
+{
+    return vec4(volume.centre, volume.radius);
+}
