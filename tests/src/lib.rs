@@ -19,8 +19,8 @@ use std::sync::atomic::AtomicBool;
 /// The environment variable that rewrites golden files instead of comparing with them.
 pub const BLESS: &str = "MANYLIGHT_BLESS";
 
-/// Brute force over all lights, the truth, and the six methods of the default replay.
-pub const METHODS: [&str; 7] = [
+/// Brute force over all lights, the truth, the six methods of the default replay, and the others that are usual.
+pub const METHODS: [&str; 8] = [
     "all-lights",
     "indi-persp-64",
     "encl-persp-64",
@@ -28,6 +28,7 @@ pub const METHODS: [&str; 7] = [
     "encl-ortho-4",
     "indi-displ-64-32",
     "encl-displ-64-32",
+    "tiled-16",
 ];
 
 /// Methods by their names.

@@ -1,9 +1,10 @@
 //! All methods shade every frame alike: as brute force over all lights does, mono and stereo, at one and at four
-//! samples a pixel, marked from depth and from geometry.
+//! samples a pixel, marked from depth and from geometry, with lists for visible clusters and for all.
 
-use manylight::assign::Marking;
-use manylight::config::{Config, ExrFrames, FrameRange};
+use manylight::assign::{Clusters, Marking};
+use manylight::config::{Assign, Config, ExrFrames, FrameRange};
 use manylight::lights::Lighting;
+use manylight::measure::ClusteringCounts;
 use manylight_tests::{METHODS, Run, difference, methods, run};
 
 fn config(recording: &str, msaa: u32, marking: Marking) -> Config {
@@ -13,6 +14,7 @@ fn config(recording: &str, msaa: u32, marking: Marking) -> Config {
         resolution: [80, 48],
         msaa,
         marking,
+        clusters: vec![Clusters::Visible, Clusters::All],
         frames: FrameRange { first: 100, end: Some(581), step: 240 },
         runs: 0,
         exr: ExrFrames::All,
@@ -94,6 +96,45 @@ fn stereo_with_four_samples_marked_from_geometry() {
 #[test]
 fn stereo_with_four_samples() {
     check("bistro-vive", 4, Marking::Depth);
+}
+
+/// What is listed where all clusters get lists has the lists of the visible ones among them, light by light.
+#[test]
+fn visible_clusters_have_the_same_lists_among_all() {
+    let names = ["indi-persp-64", "encl-ortho-4", "encl-displ-64-32", "tiled-16"];
+    for assign in [Assign::Brute, Assign::Hierarchy, Assign::Scatter] {
+        let config = config("bistro-vive", 1, Marking::Depth);
+        let runs = run(Config { methods: methods(&names), assign: vec![assign], ..config });
+        for pair in runs.chunks(2) {
+            let [sparse, dense] = pair else { panic!("two runs a method") };
+            assert_eq!(sparse.planned.method, dense.planned.method);
+            assert_eq!(sparse.counts.len(), dense.counts.len());
+            for (few, every) in sparse.counts.iter().zip(&dense.counts) {
+                assert_eq!(few.counters.lighting_computations, every.counters.lighting_computations);
+                for (visible, all) in few.clusterings.iter().zip(&every.clusterings) {
+                    let clusters: u32 = all.dimensions.iter().product();
+                    assert_eq!(all.visible_clusters, u64::from(clusters));
+                    for cluster in &visible.clusters {
+                        assert_eq!(all.clusters[cluster.index as usize], *cluster);
+                    }
+                    let fragments = |counts: &ClusteringCounts| -> u64 {
+                        counts.clusters.iter().map(|cluster| u64::from(cluster.fragments)).sum()
+                    };
+                    assert_eq!(fragments(visible), fragments(all));
+                }
+            }
+            check_lists(sparse, dense);
+        }
+    }
+}
+
+fn check_lists(sparse: &Run, dense: &Run) {
+    let indices = sparse.counts.iter().flat_map(|frame| &frame.clusterings);
+    for ((few, every), counts) in sparse.lists.iter().zip(&dense.lists).zip(indices) {
+        for (number, cluster) in counts.clusters.iter().enumerate() {
+            assert_eq!(few.list(number), every.list(cluster.index as usize), "{}", dense.planned.name);
+        }
+    }
 }
 
 /// More lights than lavapipe lets a loop have turns.

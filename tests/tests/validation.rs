@@ -1,7 +1,7 @@
 //! Every method under the validation layers, with synchronization validation, and no barrier but those that passes
 //! derive: timestamps of single stages, whose barriers would hide a missing one, are left out.
 
-use manylight::assign::Marking;
+use manylight::assign::{Clusters, Marking};
 use manylight::config::{Config, ExrFrames, FrameRange, Scopes};
 use manylight_tests::{METHODS, methods, run};
 
@@ -12,6 +12,7 @@ fn silent(recording: &str, msaa: u32, marking: Marking) {
         resolution: [48, 32],
         msaa,
         marking,
+        clusters: vec![Clusters::Visible, Clusters::All],
         scopes: Scopes::Frame,
         frames: FrameRange { first: 290, end: Some(320), step: 10 },
         runs: 1,
