@@ -22,7 +22,7 @@ pub struct Conditions {
     /// For how long a quota stopped the program, seconds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stopped_s: Option<f64>,
-    /// How often heat throttled CPUs.
+    /// How often heat throttled CPUs: the counts of all of them, so what throttles all at once counts for each.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub heat_events: Option<u64>,
     /// Lowest and highest clock of the device's shader cores at the ends of temporal runs, MHz.

@@ -68,7 +68,7 @@ fn stopped(conditions: &Conditions) -> Option<String> {
 
 fn heated(conditions: &Conditions) -> Option<String> {
     let events = conditions.heat_events.filter(|&events| events > 0)?;
-    Some(format!("heat throttled CPUs {events} times"))
+    Some(format!("CPUs counted {events} throttlings for heat"))
 }
 
 fn throttled(conditions: &Conditions) -> Option<String> {
@@ -161,7 +161,7 @@ mod tests {
             [
                 "the CPUs' governor is schedutil, not performance: clocks follow the load",
                 "a CPU quota stopped the program for 0.50 of 2.00 s",
-                "heat throttled CPUs 3 times"
+                "CPUs counted 3 throttlings for heat"
             ]
         );
         assert_eq!(on("discrete", &slow), [""; 0]);

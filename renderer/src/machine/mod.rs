@@ -9,7 +9,7 @@
 //! A sample is taken before and after each temporal run, never within one. What a system does not tell is left out:
 //! most of this is known on Linux alone. No name of a host or a user and no path is kept.
 //!
-//! Rules of doubt ([`doubts`]). Where the CPU is the device:
+//! Rules of doubt ([`doubts()`]). Where the CPU is the device:
 //!
 //! 1. Other processes took more than [`OTHERS_SHARE`] of the CPUs that the program may run on, over all temporal runs,
 //!    and by more than counting ticks may be off, `1 / sqrt(ticks)`. The program's own threads are subtracted: they are

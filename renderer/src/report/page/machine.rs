@@ -104,11 +104,12 @@ fn fared(runs: &[&Run]) -> Vec<[String; 2]> {
         names.dedup();
         names.join(", ")
     };
-    let others = conditions().filter_map(|run| run.cpu).map(|cpu| cpu.others_cpus());
+    let cpus = || conditions().filter_map(|run| run.cpu);
+    let most = cpus().map(|cpu| cpu.cpus).max().unwrap_or_default();
     let load = conditions().filter_map(|run| run.load_average).flatten();
     vec![
         row("CPU governor", names(|run| &run.governors)),
-        row("CPUs that others kept busy", range(others, "")),
+        row("CPUs that others kept busy", range(cpus().map(|cpu| cpu.others_cpus()), &format!("of {most}"))),
         row("Load average before and after runs", range(load, "")),
         row("Graphics clock", clock(|run| run.graphics_mhz)),
         row("Memory clock", clock(|run| run.memory_mhz)),
@@ -188,7 +189,7 @@ mod tests {
             "<tr><th>CPU</th><td>A&lt;B, 8 threads, 4 of them usable</td></tr>",
             "<tr><th>Device</th><td>device</td></tr>",
             "<tr><th>Device memory</th><td>3.0 GiB</td></tr>",
-            "<tr><th>CPUs that others kept busy</th><td>0.5 to 1.5</td></tr>",
+            "<tr><th>CPUs that others kept busy</th><td>0.5 to 1.5 of 8</td></tr>",
             "<td>1 of 2 runs, named below</td>",
             "<tr><th>indi-persp-64_1000</th><td>heat &amp; others</td></tr>",
         ] {
