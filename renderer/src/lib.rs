@@ -31,6 +31,7 @@ pub mod inputs;
 mod json;
 pub mod layouts;
 pub mod lights;
+pub mod machine;
 pub mod measure;
 pub mod methods;
 mod nearest;

@@ -108,6 +108,16 @@ fn line_at(text: &[u8], byte: usize) -> usize {
     1 + (0..before.len()).filter(|&i| before[i] == b'\n' || carriage_return(i)).count()
 }
 
+/// `size` in the largest binary unit that keeps it above one, for messages.
+pub fn bytes_text(size: u64) -> String {
+    match size {
+        0..1024 => format!("{size} B"),
+        1024..0x10_0000 => format!("{:.1} KiB", size as f64 / 1024.0),
+        0x10_0000..0x4000_0000 => format!("{:.1} MiB", size as f64 / 1_048_576.0),
+        _ => format!("{:.1} GiB", size as f64 / 1_073_741_824.0),
+    }
+}
+
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;

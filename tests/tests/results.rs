@@ -218,6 +218,50 @@ fn a_recording_without_rain_rains_in_the_scene() {
     assert!(needed.iter().all(|&count| count > 0), "{needed:?}");
 }
 
+#[test]
+fn a_run_tells_its_machine_and_no_name_of_a_host_or_a_user() {
+    let inputs = Inputs::new();
+    succeed(&mut inputs.lit("out", "lights.csv"));
+    let manifest: serde_json::Value =
+        serde_json::from_str(&inputs.read("out/indi-persp-16/run.json")).unwrap();
+    let keys = |value: &serde_json::Value| value.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+    let [host, device] = ["host", "device"].map(|part| &manifest["machine"][part]);
+    let of_host = "cpu cores threads usable_threads memory_bytes os kernel architecture";
+    assert!(keys(host).iter().all(|key| of_host.split(' ').any(|known| known == key)), "{host}");
+    let of_device = "kind uuid driver_id vendor_id device_id pci heaps";
+    assert!(keys(device).iter().all(|key| of_device.split(' ').any(|known| known == key)), "{device}");
+    assert_eq!(device["uuid"].as_str().unwrap().len(), 36, "{device}");
+    assert!(device["heaps"][0]["bytes"].as_u64().unwrap() > 0, "{device}");
+    let conditions = &manifest["conditions"];
+    assert!(conditions["timed_s"].as_f64().unwrap() > 0.0, "{conditions}");
+    if cfg!(target_os = "linux") {
+        let count = |key: &str| conditions["cpu"][key].as_u64().unwrap();
+        assert!(count("cpus") > 0 && count("own") + count("others") <= count("all") + 20, "{conditions}");
+        assert!(host["memory_bytes"].as_u64().unwrap() > 0 && !host["kernel"].as_str().unwrap().is_empty());
+    }
+}
+
+#[test]
+fn doubts_are_told_and_do_not_make_a_run_anew() {
+    let inputs = Inputs::new();
+    succeed(&mut inputs.lit("out", "lights.csv"));
+    let manifest = "out/indi-persp-16/run.json";
+    let mut value: serde_json::Value = serde_json::from_str(&inputs.read(manifest)).unwrap();
+    value["doubts"] = serde_json::json!(["somebody <sang>"]);
+    value["machine"]["device"]["uuid"] = "another card".into();
+    inputs.write(manifest, &value.to_string());
+    let again = text(&succeed(&mut inputs.lit("out", "lights.csv")).stderr);
+    assert!(again.contains("times of 1 of 1 runs are doubtful"), "{again}");
+    assert!(again.contains("\n  indi-persp-16: somebody <sang>\n"), "{again}");
+    assert!(again.contains("1 of 1 runs were complete and unchanged"), "{again}");
+    assert_eq!(text(&succeed(inputs.lit("out", "lights.csv").arg("--quiet")).stderr), "");
+    succeed(inputs.command().args(["report", "out"]));
+    let page = inputs.read("out/report/index.html");
+    assert!(page.contains("Times of 1 of 1 runs are doubtful"));
+    assert!(page.contains("<th>indi-persp-16</th><td>somebody &lt;sang&gt;</td>"));
+    assert!(page.contains("<td>another card</td>"));
+}
+
 fn needed(path: &Path) -> Vec<u64> {
     let mut reader = csv::Reader::from_path(path).unwrap();
     let column = reader.headers().unwrap().iter().position(|name| name == "needed_computations").unwrap();

@@ -4,7 +4,7 @@ use super::{Console, Interrupt, Progress};
 use crate::config::{Config, Layer};
 use crate::output::{Summary, write_summary};
 use crate::report::write_report;
-use crate::sweep::{Failure, Outcome, Part, Reporter, Selection, Sweep, parts, summary};
+use crate::sweep::{Doubtful, Failure, Outcome, Part, Reporter, Selection, Sweep, parts, summary};
 use crate::{Error, Result};
 use serde::Serialize;
 use std::fmt;
@@ -54,7 +54,7 @@ pub fn run(args: Args, console: &Console) -> Result<()> {
         if table.rows.is_empty() {
             return Err(Error::file(&config.out, "holds no complete run of this configuration"));
         }
-        return close(&config, &table, args.report, console);
+        return close((&config, &whole), &table, args.report, console);
     }
     let (outcome, ended) = sweep(&chosen, args.force, console)?;
     let table = summary(&whole);
@@ -69,7 +69,7 @@ pub fn run(args: Args, console: &Console) -> Result<()> {
     }
     let table = table?;
     if !table.rows.is_empty() {
-        close(&config, &table, args.report, console)?;
+        close((&config, &whole), &table, args.report, console)?;
     }
     if outcome.skipped > 0 {
         console.note(&format!("{} of {} runs were complete and unchanged", outcome.skipped, count(&chosen)));
@@ -87,11 +87,20 @@ fn sweep(chosen: &[Part], force: bool, console: &Console) -> Result<(Outcome, Re
     Ok((std::mem::take(&mut sweep.outcome), ended))
 }
 
-/// Writes and prints the table, and the report where it is asked for.
-fn close(config: &Config, table: &Summary, report: bool, console: &Console) -> Result<()> {
+/// Writes and prints the table, and the report where it is asked for; says which times are doubtful.
+fn close(
+    (config, parts): (&Config, &[Part]),
+    table: &Summary,
+    report: bool,
+    console: &Console,
+) -> Result<()> {
     write_summary(&config.out, table)?;
     let written = report.then(|| write_report(std::slice::from_ref(&config.out), None)).transpose()?;
     console.result(table)?;
+    let doubtful = Doubtful::of(parts)?;
+    if !doubtful.runs.is_empty() {
+        console.note(&doubtful.to_string());
+    }
     console.note(&format!("results are in {}", config.out.display()));
     if let Some(report) = written {
         console.note(&format!("the report is {}", report.page.display()));

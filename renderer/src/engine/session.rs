@@ -12,6 +12,7 @@ use crate::geometry::views::ViewSet;
 use crate::gpu_interface::{DrawCommand, DrawCounts, MAX_VIEWS};
 use crate::gpu_scene::GpuScene;
 use crate::layouts::{DEPTH_SET, DescriptorSets, Layouts};
+use crate::machine::Probe;
 use crate::pass::FrameTracker;
 use crate::passes::{DrawBuffers, ViewTargets};
 use crate::pipelines::PipelineStore;
@@ -40,6 +41,8 @@ pub struct Session {
     pub store: PipelineStore,
     /// Memory of the barrier derivation.
     pub tracker: FrameTracker,
+    /// What tells the machine's state.
+    pub probe: Probe,
     /// The device.
     pub context: Arc<Context>,
 }
@@ -72,6 +75,7 @@ impl Session {
             draw_slots,
             store: PipelineStore::new(&context, &layouts, shaders, (view_set, drawn_sets(scene))),
             tracker: FrameTracker::default(),
+            probe: Probe::new(&context.info.hardware),
             context,
         })
     }

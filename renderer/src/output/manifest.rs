@@ -3,6 +3,7 @@
 use super::strict::{refuse, shown};
 use crate::config::Config;
 use crate::lights::Lighting;
+use crate::machine::{Conditions, Machine};
 use crate::measure::{Capacities, GrowthEvent};
 use crate::{Error, Result};
 use serde::{Deserialize, Serialize};
@@ -53,6 +54,15 @@ pub struct Manifest {
     pub frame_count: Option<usize>,
     /// The device that rendered.
     pub device: DeviceInfo,
+    /// The machine it ran on.
+    #[serde(default)]
+    pub machine: Machine,
+    /// How the machine fared in the temporal runs.
+    #[serde(default)]
+    pub conditions: Conditions,
+    /// Why times are doubtful, a sentence each; see [`crate::machine`].
+    #[serde(default)]
+    pub doubts: Vec<String>,
     /// Buffer capacities at the end of the run.
     #[serde(default)]
     pub capacities: Capacities,
@@ -76,7 +86,7 @@ pub struct Source {
     pub sha256: String,
 }
 
-/// The device that rendered.
+/// The device that rendered, as far as runs are known by it: another of the same name does not make them anew.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DeviceInfo {
     /// Its name.
@@ -155,7 +165,10 @@ mod tests {
     #[test]
     fn what_earlier_versions_left_out_is_not_missed() {
         let mut value = serde_json::to_value(manifest()).unwrap();
-        for field in ["fingerprint", "assigned_by", "frame_count", "capacities", "growth", "duration_s"] {
+        for field in
+            "fingerprint assigned_by frame_count capacities growth duration_s machine conditions doubts"
+                .split(' ')
+        {
             value.as_object_mut().unwrap().remove(field).unwrap();
         }
         for field in ["assign", "test", "culling", "multiview", "trace"] {
@@ -163,6 +176,7 @@ mod tests {
         }
         let read = read(&value).unwrap();
         assert_eq!((read.frame_count, read.config), (None, Config::default()));
+        assert_eq!((read.machine, read.doubts), (Machine::default(), vec![]));
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::{DeviceInfo, Manifest, RUN_FORMAT, Source, git_revision};
 use crate::config::Config;
 use crate::lights::Lighting;
+use crate::machine::{Conditions, CpuTicks, Device, Heap, Host, Machine};
 use crate::measure::{
     Capacities, ClusterRecord, ClusteringCounts, DeviceCounts, FrameCounts, FrameTimes, GrowthEvent,
     StageTime, ViewPixels,
@@ -25,6 +26,21 @@ pub(super) fn manifest() -> Manifest {
         lights_file: None,
         frame_count: Some(1),
         device: DeviceInfo { name: "llvmpipe".into(), driver: "Mesa".into(), api: "1.3.230".into() },
+        machine: Machine {
+            host: Host { cpu: Some("Quick".into()), os: "Linux".into(), ..Host::default() },
+            device: Device {
+                kind: "cpu".into(),
+                heaps: vec![Heap { bytes: 1 << 30, device_local: true }],
+                ..Device::default()
+            },
+        },
+        conditions: Conditions {
+            timed_s: 0.5,
+            load_average: Some([0.25, 1.5]),
+            cpu: Some(CpuTicks { cpus: 2, all: 100, own: 40, others: 30 }),
+            ..Conditions::default()
+        },
+        doubts: vec!["others were at work".into()],
         capacities: Capacities { visible_clusters: 1, light_indices: 2 },
         growth: vec![GrowthEvent {
             frame: 40,

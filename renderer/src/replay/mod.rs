@@ -19,6 +19,7 @@ use crate::assign::Assigner;
 use crate::config::Config;
 use crate::engine::{Engine, FramePlan, LargestGrid, Mode, Session, count_frame, nothing, plan_frames};
 use crate::inputs::Inputs;
+use crate::machine::Conditions;
 use crate::measure::{
     Capacities, ClusterLists, FrameCounts, FrameTimes, FrameTrace, GrowthEvent, ViewPixels,
 };
@@ -91,6 +92,8 @@ pub struct RunResult {
     pub growth: Vec<GrowthEvent>,
     /// The device it ran on.
     pub device: DeviceInfo,
+    /// How the machine fared in the temporal runs.
+    pub conditions: Conditions,
     /// When it began.
     pub started: SystemTime,
     /// How long it took.
@@ -146,6 +149,7 @@ fn replay_run(
         capacities: run.config.capacities(),
         growth: vec![],
         device: session.context.info.clone(),
+        conditions: Conditions::default(),
         started,
         duration: Duration::ZERO,
     };
@@ -221,7 +225,9 @@ fn time(
     let mut tracer = Tracer::new(&run.config.trace, frames, run.config.runs, engine.tree.paths().len());
     for number in 0..run.config.runs {
         let keep = (number, &mut tracer);
+        let before = session.probe.sample();
         let times = temporal::time_run(&mut engine, session, plans, &mut *lights, keep, watch)?;
+        result.conditions.add(&before, &session.probe.sample());
         result.times.extend(times);
     }
     result.traces = tracer.finish(&engine.tree, &session.context.limits);

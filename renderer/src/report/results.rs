@@ -1,6 +1,7 @@
 //! What result directories hold, as types that figures and claims ask.
 
 use super::way::Way;
+use crate::machine::{Conditions, Machine};
 use crate::methods::{Method, Sharing, Space};
 use crate::output::{FrameRow, Older};
 use std::collections::BTreeMap;
@@ -88,6 +89,12 @@ pub struct Run {
     pub lighting: LightingName,
     /// Device, driver and Vulkan version.
     pub device: [String; 3],
+    /// The machine it ran on.
+    pub machine: Machine,
+    /// How the machine fared in the temporal runs.
+    pub conditions: Conditions,
+    /// Why its times are doubtful.
+    pub doubts: Vec<String>,
     /// When it started, RFC 3339.
     pub started: String,
     /// How long it took, seconds.

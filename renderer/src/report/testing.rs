@@ -1,6 +1,7 @@
 //! Runs made up for tests.
 
 use super::results::{Distribution, Frames, LightingName, ResultSet, Run, Setting, metric};
+use crate::machine::{Conditions, Machine};
 use crate::methods::Method;
 use std::collections::BTreeMap;
 
@@ -41,6 +42,9 @@ pub fn run(method: &str, views: u32, lights: u32, value: impl Fn(&str, u32) -> O
         method,
         lighting: LightingName { count: Some(lights), label: format!("{lights} lights"), sha256: None },
         device: ["device".into(), "driver 1".into(), "1.3".into()],
+        machine: Machine::default(),
+        conditions: Conditions::default(),
+        doubts: vec![],
         started: "2026-01-01T00:00:00Z".into(),
         duration_s: 2.0,
         temporal_runs: 2,

@@ -22,4 +22,4 @@ pub use failure::Failure;
 pub use fingerprint::Fingerprint;
 pub use product::{Part, parts};
 pub use selection::{Selection, Shard};
-pub use table::summary;
+pub use table::{Doubtful, summary};

@@ -4,6 +4,7 @@ use super::{Part, Reporter};
 use crate::config::Assign;
 use crate::inputs::Inputs;
 use crate::lights::LightsFrom;
+use crate::machine::{Host, Machine, Roots, doubts};
 use crate::measure::ViewPixels;
 use crate::output::{
     DeviceInfo, Manifest, PlannedRun, RUN_FORMAT, RunWriter, Source, git_revision, rfc3339_utc,
@@ -45,6 +46,7 @@ impl Files<'_> {
 
     fn manifest(&self, run: &PlannedRun, result: &RunResult) -> Manifest {
         let Inputs { scene, recording, .. } = self.inputs;
+        let machine = Machine { host: Host::read(&Roots::default()), device: result.device.hardware.clone() };
         Manifest {
             format: RUN_FORMAT.into(),
             version: env!("CARGO_PKG_VERSION").into(),
@@ -62,6 +64,9 @@ impl Files<'_> {
             lights_file: self.lights_file(),
             frame_count: Some(result.counts.len()),
             device: device(&result.device),
+            doubts: doubts(&machine, &result.conditions),
+            machine,
+            conditions: result.conditions.clone(),
             capacities: result.capacities,
             growth: result.growth.clone(),
             started: rfc3339_utc(result.started),

@@ -32,7 +32,7 @@ pub struct Context {
     pub queue_family: u32,
     /// What the device can hold.
     pub limits: Limits,
-    /// Name and driver.
+    /// Name, driver and hardware.
     pub info: DeviceInfo,
     physical: vk::PhysicalDevice,
     debug: Option<ext::debug_utils::Device>,
@@ -70,7 +70,7 @@ impl Context {
         tracing::debug!(
             "device {} ({}), driver {}",
             context.info.name,
-            context.info.kind,
+            context.info.hardware.kind,
             context.info.driver
         );
         Ok(Arc::new(context))

@@ -109,7 +109,7 @@ fn find(devices: &[Named], wanted: &str) -> Result<usize> {
 }
 
 fn best(devices: &[Named]) -> Result<usize> {
-    let rank = |info: &DeviceInfo| match info.kind.as_str() {
+    let rank = |info: &DeviceInfo| match info.hardware.kind.as_str() {
         "discrete" => 0,
         "integrated" => 1,
         "virtual" => 2,
@@ -170,7 +170,7 @@ impl fmt::Display for DeviceListing {
 impl fmt::Display for ListedDevice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { index, info, limits, unusable } = self;
-        writeln!(f, "{index}  {} ({})", info.name, info.kind)?;
+        writeln!(f, "{index}  {} ({})", info.name, info.hardware.kind)?;
         if let Some(reason) = unusable {
             writeln!(f, "   unusable: {reason}")?;
         }
@@ -180,6 +180,10 @@ impl fmt::Display for ListedDevice {
         let yes = |present: bool| if present { "yes" } else { "no" };
         row("driver", format!("{} {}", info.driver, info.driver_version))?;
         row("Vulkan", info.api_version.clone())?;
+        row("UUID", info.hardware.uuid.clone())?;
+        if let Some(pci) = &info.hardware.pci {
+            row("PCI address", pci.clone())?;
+        }
         row("device memory", bytes_text(limits.device_local_bytes))?;
         row(
             "storage buffer",
@@ -226,12 +230,13 @@ pub fn list_devices() -> Result<Vec<(DeviceInfo, Limits, Option<String>)>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::machine::Device;
 
     fn devices(list: &[(&str, &str, bool)]) -> Vec<Named> {
         let named = |&(name, kind, usable): &(&str, &str, bool)| {
             let [driver, driver_version, api_version] = [const { String::new() }; 3];
-            let info =
-                DeviceInfo { name: name.into(), kind: kind.into(), driver, driver_version, api_version };
+            let hardware = Device { kind: kind.into(), ..Device::default() };
+            let info = DeviceInfo { name: name.into(), driver, driver_version, api_version, hardware };
             (info, (!usable).then(|| "it lacks dynamicRendering".to_string()))
         };
         list.iter().map(named).collect()
@@ -279,6 +284,11 @@ mod tests {
         for device in &listing.devices {
             assert!(text.contains(&format!("{}  {}", device.index, device.info.name)));
             assert_eq!(json[device.index]["name"], device.info.name.as_str());
+            let hardware = &device.info.hardware;
+            assert_eq!(json[device.index]["uuid"], hardware.uuid.as_str());
+            assert!(text.contains(&hardware.uuid) && hardware.uuid.len() == 36, "{text}");
+            let own: u64 = hardware.heaps.iter().filter(|h| h.device_local).map(|h| h.bytes).sum();
+            assert_eq!(own, device.limits.device_local_bytes);
         }
     }
 }

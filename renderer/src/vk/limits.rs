@@ -1,6 +1,7 @@
 //! What a device is called and what it can hold.
 
-use ash::vk;
+use crate::machine::{Device, Heap, uuid_text};
+use ash::{ext, vk};
 use serde::Serialize;
 use std::ffi::CStr;
 
@@ -9,14 +10,15 @@ use std::ffi::CStr;
 pub struct DeviceInfo {
     /// As the driver gives it.
     pub name: String,
-    /// `discrete`, `integrated`, `virtual`, `cpu` or `other`.
-    pub kind: String,
     /// Driver name.
     pub driver: String,
     /// The driver's own version text, or its packed number where it gives none.
     pub driver_version: String,
     /// Highest Vulkan version, `major.minor.patch`.
     pub api_version: String,
+    /// What tells it from others of its name.
+    #[serde(flatten)]
+    pub hardware: Device,
 }
 
 /// The limits and optional features that passes plan with. Optional features listed here are enabled where present.
@@ -93,7 +95,8 @@ pub struct Limits {
 /// Reads the name and driver of `physical`.
 pub(super) fn read_info(instance: &ash::Instance, physical: vk::PhysicalDevice) -> DeviceInfo {
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
-    let mut properties = vk::PhysicalDeviceProperties2::default();
+    let mut ids = vk::PhysicalDeviceIDProperties::default();
+    let mut properties = vk::PhysicalDeviceProperties2::default().push_next(&mut ids);
     let modern =
         unsafe { instance.get_physical_device_properties(physical) }.api_version >= vk::API_VERSION_1_2;
     if modern {
@@ -105,11 +108,41 @@ pub(super) fn read_info(instance: &ash::Instance, physical: vk::PhysicalDevice) 
     let given = text(driver.driver_info_as_c_str());
     DeviceInfo {
         name: text(base.device_name_as_c_str()),
-        kind: kind_name(base.device_type).into(),
         driver: text(driver.driver_name_as_c_str()),
         driver_version: if given.is_empty() { version_text(base.driver_version) } else { given },
         api_version: version_text(base.api_version),
+        hardware: Device {
+            kind: kind_name(base.device_type).into(),
+            uuid: uuid_text(ids.device_uuid),
+            driver_id: if modern { format!("{:?}", driver.driver_id) } else { String::new() },
+            vendor_id: base.vendor_id,
+            device_id: base.device_id,
+            pci: pci_address(instance, physical),
+            heaps: heaps(instance, physical),
+        },
     }
+}
+
+/// `domain:bus:device.function`; `None` where the device is on no such bus, or its driver does not tell.
+fn pci_address(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Option<String> {
+    let offered = unsafe { instance.enumerate_device_extension_properties(physical) }.ok()?;
+    let tells =
+        |offer: &vk::ExtensionProperties| offer.extension_name_as_c_str() == Ok(ext::pci_bus_info::NAME);
+    offered.iter().any(tells).then(|| {
+        let mut pci = vk::PhysicalDevicePCIBusInfoPropertiesEXT::default();
+        let mut properties = vk::PhysicalDeviceProperties2::default().push_next(&mut pci);
+        unsafe { instance.get_physical_device_properties2(physical, &mut properties) };
+        format!("{:04x}:{:02x}:{:02x}.{:x}", pci.pci_domain, pci.pci_bus, pci.pci_device, pci.pci_function)
+    })
+}
+
+fn heaps(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Vec<Heap> {
+    let memory = unsafe { instance.get_physical_device_memory_properties(physical) };
+    let heap = |heap: &vk::MemoryHeap| Heap {
+        bytes: heap.size,
+        device_local: heap.flags.contains(vk::MemoryHeapFlags::DEVICE_LOCAL),
+    };
+    memory.memory_heaps_as_slice().iter().map(heap).collect()
 }
 
 /// `major.minor.patch` of a packed Vulkan version.
@@ -177,7 +210,11 @@ pub(super) fn read_limits(instance: &ash::Instance, physical: vk::PhysicalDevice
             0.0
         },
         subgroup_size: v11.subgroup_size,
-        device_local_bytes: device_local_bytes(instance, physical),
+        device_local_bytes: heaps(instance, physical)
+            .iter()
+            .filter(|heap| heap.device_local)
+            .map(|heap| heap.bytes)
+            .sum(),
         shader_output_layer: f12.shader_output_layer == vk::TRUE,
         shader_clip_distance: core.shader_clip_distance == vk::TRUE,
         multiview: f11.multiview == vk::TRUE,
@@ -201,14 +238,4 @@ fn sample_counts(limits: &vk::PhysicalDeviceLimits) -> Vec<u32> {
         & limits.sampled_image_color_sample_counts
         & limits.sampled_image_depth_sample_counts;
     (0..7).map(|bit| 1 << bit).filter(|&count| common.as_raw() & count != 0).collect()
-}
-
-fn device_local_bytes(instance: &ash::Instance, physical: vk::PhysicalDevice) -> u64 {
-    let memory = unsafe { instance.get_physical_device_memory_properties(physical) };
-    let heaps = memory.memory_heaps_as_slice();
-    heaps
-        .iter()
-        .filter(|heap| heap.flags.contains(vk::MemoryHeapFlags::DEVICE_LOCAL))
-        .map(|heap| heap.size)
-        .sum()
 }

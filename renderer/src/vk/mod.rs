@@ -37,17 +37,8 @@ pub use texture::upload_textures;
 pub use validation::ValidationLog;
 
 use crate::Error;
+use crate::text::bytes_text;
 use ash::vk;
-
-/// `size` in the largest binary unit that keeps it above one, for messages.
-fn bytes_text(size: u64) -> String {
-    match size {
-        0..1024 => format!("{size} B"),
-        1024..0x10_0000 => format!("{:.1} KiB", size as f64 / 1024.0),
-        0x10_0000..0x4000_0000 => format!("{:.1} MiB", size as f64 / 1_048_576.0),
-        _ => format!("{:.1} GiB", size as f64 / 1_073_741_824.0),
-    }
-}
 
 /// No driver is installed, or none that finds a device of its own.
 fn no_device() -> Error {

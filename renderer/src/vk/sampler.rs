@@ -86,7 +86,7 @@ fn make(context: &Context, key: scene::Sampler) -> Result<vk::Sampler> {
 /// Software rasterisers filter without anisotropy: llvmpipe walks every texel under a pixel's ellipse, which at grazing
 /// angles is millions, and seems to hang.
 fn max_anisotropy(context: &Context) -> f32 {
-    if context.info.kind == "cpu" { 0.0 } else { context.limits.max_sampler_anisotropy.min(ANISOTROPY) }
+    if context.info.hardware.is_cpu() { 0.0 } else { context.limits.max_sampler_anisotropy.min(ANISOTROPY) }
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The page: one HTML file with its styles, script, drawings and numbers inside.
 
+mod machine;
 mod runs;
 mod tables;
 
@@ -17,7 +18,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// How numbers come to be: name and explanation.
-const METHOD_NOTES: [(&str, &str); 6] = [
+const METHOD_NOTES: [(&str, &str); 7] = [
     (
         "Times",
         "GPU time of each stage from timestamp queries around it. Every stage of every frame is timed in each temporal run; \
@@ -40,6 +41,12 @@ const METHOD_NOTES: [(&str, &str); 6] = [
     (
         "Distributions",
         "Visible clusters by the length of their light list and by their fragments, of every frame of the counting run.",
+    ),
+    (
+        "Doubtful times",
+        "Of runs during which other processes took the CPUs (where those are the device, more than 5 % of them), a governor \
+         or a performance level chose lower clocks, power or heat held them back, or clocks differed between temporal runs. \
+         The machine is asked before and after each temporal run, never within one.",
     ),
     (
         "Statistics",
@@ -83,6 +90,7 @@ pub fn html(set: &ResultSet, content: &Content<'_>) -> String {
         body.push_str("</section>\n");
     }
     runs::section(&mut body, set);
+    machine::section(&mut body, set);
     method_section(&mut body, set);
     document(&body, &numbers(figures))
 }
@@ -157,10 +165,23 @@ fn header(body: &mut String, set: &ResultSet) {
         &format!("{} runs in {} s, started {first} to {last} UTC", set.runs.len(), readable(seconds)),
     );
     body.push_str("</dl>\n");
-    if devices.len() > 1 {
-        body.push_str("<p class=\"warning\">Runs come from several devices: times of different runs do not compare.</p>\n");
-    }
+    warnings(body, set);
     body.push_str("</header>\n");
+}
+
+/// What makes times doubtful, or unfit to be compared.
+fn warnings(body: &mut String, set: &ResultSet) {
+    if machine::machines(set).len() > 1 {
+        body.push_str("<p class=\"warning\">Runs come from several machines: times of different runs do not compare.</p>\n");
+    }
+    let doubtful = machine::doubtful(set).count();
+    if doubtful > 0 {
+        let _ = writeln!(
+            body,
+            "<p class=\"warning\">Times of {doubtful} of {} runs are doubtful: see <a href=\"#machine\">Machine</a>.</p>",
+            set.runs.len()
+        );
+    }
 }
 
 /// Date and time to the minute of an RFC 3339 moment.
@@ -180,7 +201,7 @@ fn navigation(body: &mut String, content: &Content<'_>) {
     if !content.galleries.is_empty() {
         body.push_str("<a href=\"#lights\">Lights per cluster</a>\n");
     }
-    body.push_str("<a href=\"#runs\">All runs</a>\n<a href=\"#method\">How measured</a>\n</nav>\n");
+    body.push_str("<a href=\"#runs\">All runs</a>\n<a href=\"#machine\">Machine</a>\n<a href=\"#method\">How measured</a>\n</nav>\n");
 }
 
 fn figure_element(body: &mut String, figure: &Figure, numbered: bool) {
