@@ -4,9 +4,11 @@
 
 mod debug;
 mod graphics;
+mod lists;
 mod variant;
 
 pub use debug::{DebugPipelines, Line, SPHERE_VERTICES};
+pub use lists::{AcceleratedPipelines, ClusteredPipelines};
 pub use variant::{Variant, lights_at_once};
 
 use graphics::Output;
@@ -42,56 +44,6 @@ pub struct MarkPipelines {
     pub depth: Arc<Pipeline>,
     /// From geometry, by [`SurfaceKind`].
     pub geometry: [Arc<Pipeline>; 3],
-}
-
-/// What clustered methods run besides.
-pub struct ClusteredPipelines {
-    /// Marking the clusters of fragments.
-    pub mark: MarkPipelines,
-    /// Counting the fragments of visible clusters.
-    pub count_fragments: MarkPipelines,
-    /// Prefix sum of the visibility words.
-    pub compact: ScanPipelines,
-    /// Every cluster as a visible one.
-    pub list_clusters: Arc<Pipeline>,
-    /// Lights into clustering space.
-    pub transform_lights: Arc<Pipeline>,
-    /// Empties what counting fills in any order.
-    pub clear_lists: Arc<Pipeline>,
-    /// Pairs that meet, to bits or lengths of lists.
-    pub count_lights: Arc<Pipeline>,
-    /// Lengths of lists, and the lists, from their bits.
-    pub read_masks: [Arc<Pipeline>; 2],
-    /// Prefix sum of the lengths.
-    pub light_offsets: ScanPipelines,
-    /// Pairs that meet, to the lists, in any order.
-    pub assign_lights: Arc<Pipeline>,
-    /// Sorts the lists.
-    pub sort_lists: Arc<Pipeline>,
-}
-
-/// What assignment other than by brute force runs besides.
-pub struct AcceleratedPipelines {
-    /// Marks the blocks that hold visible clusters.
-    pub mark_blocks: Arc<Pipeline>,
-    /// Lights that may meet one.
-    pub cull_lights: Arc<Pipeline>,
-    /// Prefix sum of their bits.
-    pub rank_lights: ScanPipelines,
-    /// Those lights.
-    pub list_candidates: Arc<Pipeline>,
-    /// Counts the candidates of each group of visible clusters, and lists them.
-    pub scatter_groups: [Arc<Pipeline>; 2],
-    /// Prefix sum of the tiles they fill.
-    pub group_tiles: ScanPipelines,
-    /// Digits of each block of the sort.
-    pub count_digits: Arc<Pipeline>,
-    /// Their prefix sum.
-    pub digit_offsets: ScanPipelines,
-    /// Items by digit.
-    pub reorder: Arc<Pipeline>,
-    /// One depth of the hierarchy.
-    pub build_nodes: Arc<Pipeline>,
 }
 
 /// All pipelines of one variant.
@@ -219,50 +171,6 @@ impl PipelineStore {
             }
         }
         Ok(shade)
-    }
-
-    fn accelerated(&mut self, variant: &Variant) -> Result<AcceleratedPipelines> {
-        let (defines, tests) = (&variant.list_defines(), &variant.test_defines());
-        Ok(AcceleratedPipelines {
-            mark_blocks: self.compute("cull/mark_blocks.comp", defines)?,
-            cull_lights: self.compute("cull/cull_lights.comp", tests)?,
-            rank_lights: self.scan(defines, "SCAN_LIGHTS")?,
-            list_candidates: self.compute("cull/list_candidates.comp", tests)?,
-            scatter_groups: self.both("assign/scatter_groups.comp", defines, "FILL_GROUPS")?,
-            group_tiles: self.scan(defines, "SCAN_GROUPS")?,
-            count_digits: self.compute("build/count_digits.comp", tests)?,
-            digit_offsets: self.scan(defines, "SCAN_DIGITS")?,
-            reorder: self.compute("build/reorder.comp", defines)?,
-            build_nodes: self.compute("build/build_nodes.comp", tests)?,
-        })
-    }
-
-    fn clustered(&mut self, variant: &Variant) -> Result<ClusteredPipelines> {
-        let (defines, tests) = (variant.list_defines(), variant.test_defines());
-        let assign = match variant.assigner {
-            Assigner::Brute => "assign/brute.comp",
-            Assigner::Hierarchy => "assign/hierarchy.comp",
-            Assigner::Scatter => "assign/scatter.comp",
-        };
-        let [count_lights, assign_lights] = self.both(assign, &tests, "WRITE_LISTS")?;
-        Ok(ClusteredPipelines {
-            mark: self.mark(variant, false)?,
-            count_fragments: self.mark(variant, true)?,
-            compact: self.scan(&defines, "SCAN_VISIBILITY")?,
-            list_clusters: self.compute("cluster/list_clusters.comp", &defines)?,
-            transform_lights: self.compute("assign/transform_lights.comp", &defines)?,
-            clear_lists: self.compute("assign/clear_lists.comp", &defines)?,
-            count_lights,
-            read_masks: self.both("assign/read_masks.comp", &defines, "WRITE_LISTS")?,
-            light_offsets: self.scan(&defines, "SCAN_LIST_LENGTHS")?,
-            assign_lights,
-            sort_lists: self.compute("assign/sort_lists.comp", &defines)?,
-        })
-    }
-
-    /// A compute shader twice: with `define` 0 and 1.
-    fn both(&mut self, path: &str, defines: &Defines, define: &'static str) -> Result<[Arc<Pipeline>; 2]> {
-        Ok([self.compute(path, &defines.with(define, 0))?, self.compute(path, &defines.with(define, 1))?])
     }
 
     fn mark(&mut self, variant: &Variant, count: bool) -> Result<MarkPipelines> {

@@ -44,7 +44,7 @@ pub fn count_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
             to_groups(r, frame, visible);
         }
         let writes = set(&[B::LightMasks, B::ListLengths, B::Counters]);
-        meet(r, frame, visible, (&pipelines.count_lights, DISPATCH_MEET), (reads, writes));
+        meet(r, frame, visible, (&pipelines.meet[0], DISPATCH_MEET), (reads, writes));
         // Brute force writes whole words of bits, and counts as it does.
         if frame.assigner != Assigner::Brute {
             let (reads, writes) = (set(&[B::State, B::LightMasks]), set(&[B::ListLengths]));
@@ -69,7 +69,7 @@ pub(crate) fn write_lists(r: &mut Recorder, frame: &Frame, visible: VisibleClust
     let reads = offsets | set(&[B::LightMasks, B::Candidates]);
     indirect(r, frame, visible, (&pipelines.read_masks[1], DISPATCH_MASKED), (reads, indices));
     let writes = indices | set(&[B::ListLengths]);
-    meet(r, frame, visible, (&pipelines.assign_lights, DISPATCH_MEET_AGAIN), (offsets, writes));
+    meet(r, frame, visible, (&pipelines.meet[1], DISPATCH_MEET_AGAIN), (offsets, writes));
 }
 
 /// Sorts lists that were written in any order.

@@ -1,0 +1,138 @@
+//! The pipelines that build light lists: an entry each says what it is, and how it is made.
+
+use super::{Defines, MarkPipelines, PipelineStore, ScanPipelines, Variant};
+use crate::Result;
+use crate::assign::Assigner;
+use crate::layouts::Pipeline;
+use std::sync::Arc;
+
+/// What the pipelines of a variant are made of.
+struct Maker<'a> {
+    store: &'a mut PipelineStore,
+    variant: &'a Variant,
+    /// Defines of shaders that build lists.
+    defines: Defines,
+    /// The same of shaders that ask what a volume meets.
+    tests: Defines,
+}
+
+impl Maker<'_> {
+    fn lists(&mut self, path: &str) -> Result<Arc<Pipeline>> {
+        self.store.compute(path, &self.defines)
+    }
+
+    fn tests(&mut self, path: &str) -> Result<Arc<Pipeline>> {
+        self.store.compute(path, &self.tests)
+    }
+
+    /// Twice: with `define` 0 and 1.
+    fn both(&mut self, path: &str, define: &'static str) -> Result<[Arc<Pipeline>; 2]> {
+        twice(self.store, path, &self.defines, define)
+    }
+
+    /// The same of a shader that asks what a volume meets.
+    fn both_tests(&mut self, path: &str, define: &'static str) -> Result<[Arc<Pipeline>; 2]> {
+        twice(self.store, path, &self.tests, define)
+    }
+
+    fn scan(&mut self, items: &str) -> Result<ScanPipelines> {
+        self.store.scan(&self.defines, items)
+    }
+
+    fn mark(&mut self, count: bool) -> Result<MarkPipelines> {
+        self.store.mark(self.variant, count)
+    }
+}
+
+fn twice(
+    store: &mut PipelineStore,
+    path: &str,
+    defines: &Defines,
+    define: &'static str,
+) -> Result<[Arc<Pipeline>; 2]> {
+    Ok([store.compute(path, &defines.with(define, 0))?, store.compute(path, &defines.with(define, 1))?])
+}
+
+/// A struct of pipelines and the function that makes them, from one list.
+macro_rules! pipelines {
+    (
+        $(#[$about:meta])*
+        pub struct $name:ident, made by $make:ident with $maker:ident {
+            $($(#[$doc:meta])* $field:ident: $kind:ty = $made:expr;)*
+        }
+    ) => {
+        $(#[$about])*
+        pub struct $name {
+            $($(#[$doc])* pub $field: $kind,)*
+        }
+
+        impl PipelineStore {
+            pub(super) fn $make(&mut self, variant: &Variant) -> Result<$name> {
+                let (defines, tests) = (variant.list_defines(), variant.test_defines());
+                let $maker = &mut Maker { store: self, variant, defines, tests };
+                Ok($name { $($field: $made?,)* })
+            }
+        }
+    };
+}
+
+pipelines! {
+    /// What methods with clusters run.
+    pub struct ClusteredPipelines, made by clustered with make {
+        /// Marking the clusters of fragments.
+        mark: MarkPipelines = make.mark(false);
+        /// Counting the fragments of visible clusters.
+        count_fragments: MarkPipelines = make.mark(true);
+        /// Prefix sum of the visibility words.
+        compact: ScanPipelines = make.scan("SCAN_VISIBILITY");
+        /// Every cluster as a visible one.
+        list_clusters: Arc<Pipeline> = make.lists("cluster/list_clusters.comp");
+        /// Lights into clustering space.
+        transform_lights: Arc<Pipeline> = make.lists("assign/transform_lights.comp");
+        /// Empties what counting fills in any order.
+        clear_lists: Arc<Pipeline> = make.lists("assign/clear_lists.comp");
+        /// Pairs of light and cluster that meet: to bits or lengths of lists, and once more, to the lists, in any order.
+        meet: [Arc<Pipeline>; 2] = make.both_tests(meet(make.variant.assigner), "WRITE_LISTS");
+        /// Lengths of lists, and the lists, from their bits.
+        read_masks: [Arc<Pipeline>; 2] = make.both("assign/read_masks.comp", "WRITE_LISTS");
+        /// Prefix sum of the lengths of lists.
+        light_offsets: ScanPipelines = make.scan("SCAN_LIST_LENGTHS");
+        /// Sorts the lists.
+        sort_lists: Arc<Pipeline> = make.lists("assign/sort_lists.comp");
+    }
+}
+
+pipelines! {
+    /// What assignment other than by brute force runs besides.
+    pub struct AcceleratedPipelines, made by accelerated with make {
+        /// Marks the blocks that hold visible clusters.
+        mark_blocks: Arc<Pipeline> = make.lists("cull/mark_blocks.comp");
+        /// A bit for each light that may meet a visible cluster: a candidate.
+        cull_lights: Arc<Pipeline> = make.tests("cull/cull_lights.comp");
+        /// Prefix sum of the bits of candidates.
+        rank_lights: ScanPipelines = make.scan("SCAN_LIGHTS");
+        /// Lists the candidates.
+        list_candidates: Arc<Pipeline> = make.tests("cull/list_candidates.comp");
+        /// Counts the candidates of each group of visible clusters, and lists them.
+        scatter_groups: [Arc<Pipeline>; 2] = make.both("assign/scatter_groups.comp", "FILL_GROUPS");
+        /// Prefix sum of the tiles that the candidates of groups fill.
+        group_tiles: ScanPipelines = make.scan("SCAN_GROUPS");
+        /// Counts the digits of each block of the sort.
+        count_digits: Arc<Pipeline> = make.tests("build/count_digits.comp");
+        /// Prefix sum of the digits' counts.
+        digit_offsets: ScanPipelines = make.scan("SCAN_DIGITS");
+        /// Moves the items of the sort to their digit's place.
+        reorder: Arc<Pipeline> = make.lists("build/reorder.comp");
+        /// Makes one depth of the hierarchy.
+        build_nodes: Arc<Pipeline> = make.tests("build/build_nodes.comp");
+    }
+}
+
+/// What finds the pairs that meet.
+fn meet(assigner: Assigner) -> &'static str {
+    match assigner {
+        Assigner::Brute => "assign/brute.comp",
+        Assigner::Hierarchy => "assign/hierarchy.comp",
+        Assigner::Scatter => "assign/scatter.comp",
+    }
+}
