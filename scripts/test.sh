@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/setup.sh --validation --browser
+scripts/setup.sh --validation --browser --openexr
 
 step() {
     printf '\n== %s\n' "$*"

@@ -3,6 +3,7 @@
 use exr::prelude::{AnyChannels, FlatSamples, Layer, ReadChannels, ReadLayers, Vec2, read};
 use manylight_tests::manylight;
 use std::path::Path;
+use std::process::Command;
 
 /// Replays a frame of the street in stereo and gives the layers of its EXR, and what was noted.
 fn stereo(out: &Path, more: &[&str]) -> (f32, Vec<Layer<AnyChannels<FlatSamples>>>, String) {
@@ -12,10 +13,28 @@ fn stereo(out: &Path, more: &[&str]) -> (f32, Vec<Layer<AnyChannels<FlatSamples>
     let output = command.output().unwrap();
     let notes = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(output.status.success(), "{notes}");
+    let (aspect, layers) = read_back(&out.join(PICTURE));
+    (aspect, layers, notes)
+}
+
+/// Where a run's image is.
+const PICTURE: &str = "indi-persp-64/frames/000100.exr";
+
+/// Pixel aspect and layers of an EXR.
+fn read_back(path: &Path) -> (f32, Vec<Layer<AnyChannels<FlatSamples>>>) {
     let reader =
         read().no_deep_data().largest_resolution_level().all_channels().all_layers().all_attributes();
-    let image = reader.from_file(out.join("indi-persp-64/frames/000100.exr")).unwrap();
-    (image.attributes.pixel_aspect, image.layer_data.to_vec(), notes)
+    let image = reader.from_file(path).unwrap();
+    (image.attributes.pixel_aspect, image.layer_data.to_vec())
+}
+
+/// What one of OpenEXR's own programs prints.
+fn openexr(program: &str, arguments: &[&Path]) -> String {
+    let output = Command::new(program).args(arguments).output();
+    let output = output.expect("install OpenEXR's programs: scripts/setup.sh --openexr");
+    let printed = String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned();
+    assert!(output.status.success(), "{program} {arguments:?}: {printed}");
+    printed
 }
 
 fn floats(layer: &Layer<AnyChannels<FlatSamples>>, name: &str) -> Vec<f32> {
@@ -59,4 +78,46 @@ fn nothing_is_covered_where_nothing_was_hit() {
     let multisampled = stereo(out.path(), &["--msaa", "4"]).1;
     let alpha = floats(&multisampled[0], "A");
     assert!([0.25, 0.5, 0.75].iter().all(|part| alpha.contains(part)), "edges are covered in part");
+}
+
+#[test]
+fn colour_without_coverage_is_none() {
+    let out = tempfile::tempdir().unwrap();
+    for layer in stereo(out.path(), &["--msaa", "4"]).1 {
+        let alpha = floats(&layer, "A");
+        for channel in ["R", "G", "B"].map(|name| floats(&layer, name)) {
+            assert!(channel.iter().zip(&alpha).all(|(value, alpha)| *alpha > 0.0 || *value == 0.0));
+            assert!(channel.iter().any(|value| *value > 0.0));
+        }
+    }
+}
+
+#[test]
+fn openexr_makes_of_the_views_in_one_part_the_same_parts_as_we_do() {
+    let [parts, one] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    let (_, expected, _) = stereo(parts.path(), &[]);
+    stereo(one.path(), &["--exr-layout", "multiview"]);
+    let (picture, converted) = (one.path().join(PICTURE), one.path().join("converted.exr"));
+    openexr("exrmultipart", &["-convert".as_ref(), "-i".as_ref(), &picture, "-o".as_ref(), &converted]);
+    let (_, found) = read_back(&converted);
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(&expected) {
+        assert_eq!(found.attributes.view_name, expected.attributes.view_name);
+        assert!(found.channel_data == expected.channel_data, "{:?}", found.attributes.view_name);
+    }
+}
+
+#[test]
+fn openexr_reads_headers_as_they_are_meant() {
+    let out = tempfile::tempdir().unwrap();
+    for (layout, views) in [("multipart", 2), ("multiview", 1)] {
+        stereo(out.path(), &["--exr-layout", layout]);
+        let header = openexr("exrheader", &[&out.path().join(PICTURE)]);
+        let lines = |start: &str| header.lines().filter(|line| line.starts_with(start)).count();
+        assert_eq!(lines("pixelAspectRatio (type float): 0.504471"), views, "{header}");
+        assert_eq!(lines("screenWindowWidth (type float): 2.63212"), 1, "{header}");
+        assert_eq!(lines("worldToCamera (type m44f)"), views, "{header}");
+        assert_eq!(lines("    right.Z, 32-bit floating-point"), 2 - views, "{header}");
+        assert_eq!(lines("multiView (type stringvector)"), 2 - views, "{header}");
+    }
 }

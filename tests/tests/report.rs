@@ -1,6 +1,6 @@
 //! The report as its readers meet it: the files, the page in a browser, one clear line for what is wrong.
 
-use manylight::config::Config;
+use manylight::config::{Config, ExrLayout};
 use manylight::measure::{
     ClusterRecord, ClusteringCounts, DeviceCounts, FrameCounts, FrameTimes, StageTime, ViewPixels,
 };
@@ -45,7 +45,7 @@ fn write_run(out: &Path, scene: [&str; 2], views: u32, method: &str, lights: u32
         FRAMES.iter().flat_map(|&frame| [times(0, frame), times(1, frame)]).collect();
     let writer = RunWriter::create(out, &format!("{method}_{lights}")).unwrap();
     for frame in [300, 580] {
-        writer.write_images(frame, &[pixels()], None).unwrap();
+        writer.write_images(frame, &[pixels()], ExrLayout::Multipart).unwrap();
         writer.write_birdseye(frame, &image::RgbImage::new(32, 20)).unwrap();
     }
     writer.finish(&manifest, &counts, &times).unwrap();
@@ -95,6 +95,7 @@ fn pixels() -> ViewPixels {
         color: (0..pixels)
             .map(|i| [channel(i as f32 / 640.0), channel(0.2), channel(0.4), channel(1.0)])
             .collect(),
+        background: [0.0; 3],
         depth: vec![1.0; pixels],
         light_count: (0..pixels as u32).collect(),
         fragment_count: vec![1; pixels],

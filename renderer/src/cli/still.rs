@@ -68,7 +68,7 @@ pub fn run(args: Args, console: &Console) -> Result<()> {
     let stem = format!("{:06}_{}_{}", args.frame, run.method, still.view);
     let [png, exr] = ["png", "exr"].map(|extension| config.out.join(format!("{stem}.{extension}")));
     write_png(&png, &still.image)?;
-    write_exr(&exr, std::slice::from_ref(&still.pixels))?;
+    write_exr(&exr, std::slice::from_ref(&still.pixels), config.exr_layout)?;
     console.result(&Written::new(&still, run.method.to_string(), [png, exr]))
 }
 

@@ -2,8 +2,8 @@
 
 use super::values::{self, de};
 use super::{
-    Assign, Clusters, Config, Culling, DisplacedVolume, Exclude, ExrFrames, FrameRange, Lighting, Marking,
-    SceneEntry, Scopes, Test, scenes, schema,
+    Assign, Clusters, Config, Culling, DisplacedVolume, Exclude, ExrFrames, ExrLayout, FrameRange, Lighting,
+    Marking, SceneEntry, Scopes, Test, scenes, schema,
 };
 use crate::lights::Attenuation;
 use crate::methods::{KINDS, Method};
@@ -118,6 +118,10 @@ pub struct Layer {
     #[schemars(schema_with = "schema::exr")]
     pub exr: Option<ExrFrames>,
 
+    /// How an EXR image holds several views: as parts, or in one part with channels named by view (`right.R`).
+    #[arg(long, value_enum)]
+    pub exr_layout: Option<ExrLayout>,
+
     /// Frames of the temporal runs whose CPU and GPU stages go to `trace.json`, for Perfetto or chrome://tracing:
     /// numbers with commas between, `all` (the flag alone) or `none`.
     #[arg(long, value_name = "LIST|all|none", num_args = 0..=1, default_missing_value = "all")]
@@ -216,6 +220,7 @@ impl Config {
         set(&mut self.frames, layer.frames);
         set(&mut self.runs, layer.runs);
         set(&mut self.exr, layer.exr);
+        set(&mut self.exr_layout, layer.exr_layout);
         set(&mut self.trace, layer.trace);
         set(&mut self.attenuation, layer.attenuation);
         set(&mut self.marking, layer.marking);

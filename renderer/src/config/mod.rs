@@ -81,6 +81,16 @@ pub enum ExrFrames {
     All,
 }
 
+/// How an EXR image holds several views.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ExrLayout {
+    /// A part a view.
+    Multipart,
+    /// One part, whose `multiView` attribute lists the views and whose channels are named by view.
+    Multiview,
+}
+
 /// Which scopes get timestamps in temporal runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -147,6 +157,8 @@ pub struct Config {
     pub runs: u32,
     /// Frames whose EXR and PNG images are written.
     pub exr: ExrFrames,
+    /// How an EXR image holds several views.
+    pub exr_layout: ExrLayout,
     /// Frames of the temporal runs that the trace shows.
     pub trace: ExrFrames,
     /// Attenuation function.
@@ -201,6 +213,7 @@ impl Default for Config {
             frames: FrameRange { first: 0, end: None, step: 40 },
             runs: 2,
             exr: ExrFrames::List(Vec::new()),
+            exr_layout: ExrLayout::Multipart,
             trace: ExrFrames::List(Vec::new()),
             attenuation: Attenuation::PhyRed2,
             marking: Marking::Depth,

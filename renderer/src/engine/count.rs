@@ -7,7 +7,7 @@ use crate::gpu_interface::{ClusteringState, PixelData};
 use crate::lights::FrameLights;
 use crate::measure::{ClusterLists, FrameCounts, ViewPixels};
 use crate::pass::Recorder;
-use crate::passes::{Frame, mark, pixel_maps, readback};
+use crate::passes::{Frame, mark, pixel_maps, readback, shade};
 use crate::vk::{Buffer, Memory};
 use ash::vk;
 use half::f16;
@@ -103,6 +103,7 @@ fn view_pixels(buffer: &Buffer, name: &str, view: &View, resolution: [u32; 2]) -
         width,
         height,
         color: color.into_iter().map(|texel| texel.map(f16::from_bits)).collect(),
+        background: shade::BACKGROUND,
         depth: pixels.iter().map(|p| p.distance).collect(),
         light_count: pixels.iter().map(|p| p.light_count).collect(),
         fragment_count: pixels.iter().map(|p| p.fragment_count).collect(),

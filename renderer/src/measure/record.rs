@@ -84,8 +84,10 @@ pub struct ViewPixels {
     pub width: u32,
     /// Pixels.
     pub height: u32,
-    /// Linear HDR colour and coverage.
+    /// Linear HDR colour, as it is seen before the background, and coverage.
     pub color: Vec<[f16; 4]>,
+    /// Linear HDR colour of the background: `color` holds as much of it as coverage leaves.
+    pub background: [f32; 3],
     /// Distance along the view's -Z, metres; infinity where nothing was hit.
     pub depth: Vec<f32>,
     /// Length of the list of the pixel's cluster; 0 where nothing was hit.

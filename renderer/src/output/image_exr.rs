@@ -1,16 +1,26 @@
 //! Multi-channel OpenEXR images: everything known of each pixel.
 //!
-//! One layer a view, named as the view (`mono`, or `left` and `right`), with the channels
+//! Each view (`mono`, or `left` and `right`) has the channels
 //!
 //! | channel | type | meaning |
 //! | --- | --- | --- |
-//! | R G B A | half | linear HDR colour; coverage: 0 where nothing was hit, the part of the samples at edges with MSAA |
+//! | R G B A | half | linear HDR colour of what was hit, multiplied with its coverage: 0 where nothing was, the part of the samples at edges with MSAA |
 //! | Z | float | distance along the view's -Z, metres; infinity where nothing was hit |
 //! | light_count | uint | length of the light list of the pixel's cluster |
 //! | fragment_count | uint | fragments in the pixel's cluster |
 //! | cluster_index | uint | linear cluster index; 4294967295 where nothing was hit |
 //!
-//! and the standard attributes `worldToCamera`, `worldToNDC`, `screenWindowCenter`, `screenWindowWidth` and
+//! which lie in one of two layouts (OpenEXR, *Storing Multi-View Images in OpenEXR Files*):
+//!
+//! ```text
+//! multipart    a part a view, named as it, with its channels and its attributes
+//! multiview    one part; the first view's channels by their names, another's behind its own: right.R, right.Z, ...
+//!              multiView lists the views; standard attributes are the first view's, manylightViews has those of all
+//!              as JSON: {"left": {"worldToCamera": [16], "worldToNDC": [16], "screenWindowCenter": [2],
+//!              "screenWindowWidth": x}, "right": ...}
+//! ```
+//!
+//! The standard attributes are `worldToCamera`, `worldToNDC`, `screenWindowCenter`, `screenWindowWidth` and
 //! `pixelAspectRatio`. The screen window is where a view's frustum meets the plane at distance 1 (OpenEXR, *Technical
 //! Introduction*), in camera space. A file has one `pixelAspectRatio`: the first view's. As OpenEXR has it, points are row vectors that
 //! are multiplied with the matrix from the left, the translation is in the last row, camera space is left-handed (+X
@@ -18,14 +28,19 @@
 //! of the image. NDC z is the device depth.
 
 use super::atomic::write_whole;
+use crate::config::ExrLayout;
 use crate::measure::ViewPixels;
 use crate::{Error, Result};
 use exr::error::Error as ExrError;
+use exr::meta::attribute::AttributeValue;
 use exr::prelude::{
     AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds,
     Layer, LayerAttributes, LineOrder, Text, Vec2, WritableImage,
 };
 use glam::{DMat4, DVec3};
+use half::f16;
+use serde::Serialize;
+use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
 
@@ -36,18 +51,23 @@ const ENCODING: Encoding = Encoding {
     line_order: LineOrder::Increasing,
 };
 
-/// Writes the views, of equal size, as layers of one image. Equal pixels give equal bytes.
+/// The attribute of [`ExrLayout::Multiview`] that has every view's camera.
+const CAMERAS: &str = "manylightViews";
+
+/// Writes the views, of equal size, as one image. Equal pixels give equal bytes.
 ///
 /// # Errors
 /// There is no view, a view's data is not as long as its size says, or the file cannot be written.
-pub fn write_exr(path: &Path, views: &[ViewPixels]) -> Result<()> {
+pub fn write_exr(path: &Path, views: &[ViewPixels], layout: ExrLayout) -> Result<()> {
     let first = views.first().ok_or_else(|| Error::Internal("an image without views".into()))?;
     for view in views {
         check_lengths(view)?;
     }
     let bounds = IntegerBounds::from_dimensions((first.width as usize, first.height as usize));
-    let stereo = views.len() > 1;
-    let layers: Vec<_> = views.iter().map(|view| layer(view, stereo)).collect();
+    let layers = match layout {
+        ExrLayout::Multipart => views.iter().map(|view| part(view, views.len() > 1)).collect(),
+        ExrLayout::Multiview => vec![one_part(first, views)?],
+    };
     let mut attributes = ImageAttributes::new(bounds);
     attributes.pixel_aspect = pixel_aspect(first);
     let image = Image::from_layers(attributes, layers);
@@ -75,36 +95,117 @@ fn check_lengths(view: &ViewPixels) -> Result<()> {
     Err(Error::Internal(format!("view {name} of {width}x{height} pixels has data of lengths {lengths:?}")))
 }
 
-fn layer(view: &ViewPixels, stereo: bool) -> Layer<AnyChannels<FlatSamples>> {
-    let color = |channel: usize| FlatSamples::F16(view.color.iter().map(|pixel| pixel[channel]).collect());
-    let channels = [
-        ("R", color(0)),
-        ("G", color(1)),
-        ("B", color(2)),
-        ("A", color(3)),
+/// A view alone.
+fn part(view: &ViewPixels, stereo: bool) -> Layer<AnyChannels<FlatSamples>> {
+    let mut attributes = Camera::of(view).attributes();
+    attributes.layer_name = Some(Text::from(view.name.as_str()));
+    attributes.view_name = stereo.then(|| Text::from(view.name.as_str()));
+    layer(view, attributes, channels(view, ""))
+}
+
+/// All views; of a view that is the only one, nothing tells it from an image that knows no views.
+fn one_part(first: &ViewPixels, views: &[ViewPixels]) -> Result<Layer<AnyChannels<FlatSamples>>> {
+    let mut attributes = Camera::of(first).attributes();
+    if views.len() > 1 {
+        attributes.multi_view_names = Some(views.iter().map(|view| Text::from(view.name.as_str())).collect());
+        // One attribute of our own, for the file's order of several would change from run to run.
+        attributes.other.insert(Text::from(CAMERAS), AttributeValue::Text(cameras(views)?));
+    }
+    let others = views[1..].iter().flat_map(|view| channels(view, &format!("{}.", view.name)));
+    Ok(layer(first, attributes, channels(first, "").into_iter().chain(others)))
+}
+
+fn layer(
+    view: &ViewPixels,
+    attributes: LayerAttributes,
+    channels: impl IntoIterator<Item = AnyChannel<FlatSamples>>,
+) -> Layer<AnyChannels<FlatSamples>> {
+    let size = (view.width as usize, view.height as usize);
+    Layer::new(size, attributes, ENCODING, AnyChannels::sort(channels.into_iter().collect()))
+}
+
+/// Everything known of a view's pixels; names begin with `prefix`.
+fn channels(view: &ViewPixels, prefix: &str) -> [AnyChannel<FlatSamples>; 8] {
+    let color = premultiplied(view);
+    let of_color = |channel: usize| FlatSamples::F16(color.iter().map(|pixel| pixel[channel]).collect());
+    [
+        ("R", of_color(0)),
+        ("G", of_color(1)),
+        ("B", of_color(2)),
+        ("A", of_color(3)),
         ("Z", FlatSamples::F32(view.depth.clone())),
         ("light_count", FlatSamples::U32(view.light_count.clone())),
         ("fragment_count", FlatSamples::U32(view.fragment_count.clone())),
         ("cluster_index", FlatSamples::U32(view.cluster_index.clone())),
-    ];
-    let view_from_world = view.world_from_view.inverse();
-    let mut attributes = LayerAttributes::named(view.name.as_str());
-    attributes.view_name = stereo.then(|| Text::from(view.name.as_str()));
-    attributes.software_name = Some(Text::from(concat!("manylight ", env!("CARGO_PKG_VERSION"))));
-    let (center, width) = screen_window(view);
-    attributes.screen_window_center = Vec2(center[0] as f32, center[1] as f32);
-    attributes.screen_window_width = width as f32;
-    attributes.world_to_camera = Some(row_vector_matrix(camera_from_view() * view_from_world));
-    attributes.world_to_normalized_device =
-        Some(row_vector_matrix(ndc_from_clip() * view.clip_from_view * view_from_world));
-    Layer::new(
-        (view.width as usize, view.height as usize),
-        attributes,
-        ENCODING,
-        AnyChannels::sort(
-            channels.into_iter().map(|(name, samples)| AnyChannel::new(name, samples)).collect(),
-        ),
-    )
+    ]
+    .map(|(name, samples)| AnyChannel {
+        name: Text::from(format!("{prefix}{name}").as_str()),
+        // Whether samples are perceptually linear is guessed by the name, which must be the channel's own.
+        ..AnyChannel::new(name, samples)
+    })
+}
+
+/// The colour of what covers each pixel: the background's part is taken off.
+fn premultiplied(view: &ViewPixels) -> Vec<[f16; 4]> {
+    let of_pixel = |&[r, g, b, a]: &[f16; 4]| {
+        if a == f16::ONE {
+            return [r, g, b, a];
+        }
+        if a == f16::ZERO {
+            return [f16::ZERO; 4];
+        }
+        let [r, g, b] = std::array::from_fn(|channel| {
+            let behind = view.background[channel] * (1.0 - a.to_f32());
+            f16::from_f32(([r, g, b][channel].to_f32() - behind).max(0.0))
+        });
+        [r, g, b, a]
+    };
+    view.color.iter().map(of_pixel).collect()
+}
+
+/// Where a view was seen from, as OpenEXR's attributes of these names have it.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Camera {
+    world_to_camera: [f32; 16],
+    #[serde(rename = "worldToNDC")]
+    world_to_ndc: [f32; 16],
+    screen_window_center: [f32; 2],
+    screen_window_width: f32,
+}
+
+impl Camera {
+    fn of(view: &ViewPixels) -> Self {
+        let view_from_world = view.world_from_view.inverse();
+        let (center, width) = screen_window(view);
+        Self {
+            world_to_camera: row_vector_matrix(camera_from_view() * view_from_world),
+            world_to_ndc: row_vector_matrix(ndc_from_clip() * view.clip_from_view * view_from_world),
+            screen_window_center: center.map(|value| value as f32),
+            screen_window_width: width as f32,
+        }
+    }
+
+    fn attributes(&self) -> LayerAttributes {
+        let [x, y] = self.screen_window_center;
+        LayerAttributes {
+            software_name: Some(Text::from(concat!("manylight ", env!("CARGO_PKG_VERSION")))),
+            screen_window_center: Vec2(x, y),
+            screen_window_width: self.screen_window_width,
+            world_to_camera: Some(self.world_to_camera),
+            world_to_normalized_device: Some(self.world_to_ndc),
+            ..LayerAttributes::default()
+        }
+    }
+}
+
+/// Every view's camera by the view's name, JSON.
+fn cameras(views: &[ViewPixels]) -> Result<Text> {
+    let all: BTreeMap<&str, Camera> =
+        views.iter().map(|view| (view.name.as_str(), Camera::of(view))).collect();
+    let json = serde_json::to_string(&all)
+        .map_err(|error| Error::Internal(format!("a camera is not JSON: {error}")))?;
+    Ok(Text::from(json.as_str()))
 }
 
 /// Centre and width of a view's screen window. Views that are no perspective have the neutral one, as the standard
@@ -140,113 +241,4 @@ fn row_vector_matrix(matrix: DMat4) -> [f32; 16] {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::testing::view;
-    use super::*;
-    use exr::prelude::{FlatImage, ReadChannels, ReadLayers, read};
-    use half::f16;
-
-    fn read_back(path: &Path) -> FlatImage {
-        read()
-            .no_deep_data()
-            .largest_resolution_level()
-            .all_channels()
-            .all_layers()
-            .all_attributes()
-            .from_file(path)
-            .unwrap()
-    }
-
-    #[test]
-    fn stereo_reads_back_as_named_layers_with_every_channel() {
-        let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("000300.exr");
-        let views = [view("left", 5, 3), view("right", 5, 3)];
-        write_exr(&path, &views).unwrap();
-        let image = read_back(&path);
-        assert_eq!(image.layer_data.len(), 2);
-        for (layer, view) in image.layer_data.iter().zip(&views) {
-            assert_eq!(layer.attributes.layer_name, Some(Text::from(view.name.as_str())));
-            assert_eq!(layer.attributes.view_name, Some(Text::from(view.name.as_str())));
-            let names: Vec<String> = layer.channel_data.list.iter().map(|c| c.name.to_string()).collect();
-            assert_eq!(names, ["A", "B", "G", "R", "Z", "cluster_index", "fragment_count", "light_count"]);
-            let samples: Vec<&FlatSamples> = layer.channel_data.list.iter().map(|c| &c.sample_data).collect();
-            let red: Vec<f16> = view.color.iter().map(|pixel| pixel[0]).collect();
-            assert_eq!(samples[3], &FlatSamples::F16(red));
-            assert_eq!(samples[4], &FlatSamples::F32(view.depth.clone()));
-            assert_eq!(samples[5], &FlatSamples::U32(view.cluster_index.clone()));
-            assert_eq!(samples[6], &FlatSamples::U32(view.fragment_count.clone()));
-            assert_eq!(samples[7], &FlatSamples::U32(view.light_count.clone()));
-        }
-    }
-
-    #[test]
-    fn matrices_are_row_vector_matrices_to_camera_and_to_ndc() {
-        let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("mono.exr");
-        let mut mono = view("mono", 4, 2);
-        mono.world_from_view = DMat4::from_translation(DVec3::new(1.0, 2.0, 3.0));
-        // Tangents of 1 both ways, reversed depth: near 0.5, far infinite.
-        mono.clip_from_view = DMat4::from_cols_array_2d(&[
-            [1.0, 0.0, 0.0, 0.0],
-            [0.0, 1.0, 0.0, 0.0],
-            [0.0, 0.0, 0.0, -1.0],
-            [0.0, 0.0, 0.5, 0.0],
-        ]);
-        write_exr(&path, &[mono]).unwrap();
-        let attributes = &read_back(&path).layer_data[0].attributes;
-        assert_eq!(attributes.layer_name, Some(Text::from("mono")));
-        assert_eq!(attributes.view_name, None);
-        let camera = attributes.world_to_camera.unwrap();
-        assert_eq!(camera[12..], [-1.0, -2.0, 3.0, 1.0]);
-        assert_eq!(camera[8..11], [0.0, 0.0, -1.0], "what lies ahead (world -Z) has a positive camera z");
-        let ndc = attributes.world_to_normalized_device.unwrap();
-        // Ten metres ahead, five to the right and ten up: three quarters across, at the upper edge.
-        let point = [1.0 + 5.0, 2.0 + 10.0, 3.0 - 10.0, 1.0];
-        let out: Vec<f32> =
-            (0..4).map(|column| (0..4).map(|row| point[row] * ndc[row * 4 + column]).sum()).collect();
-        assert!((out[0] / out[3] - 0.75).abs() < 1e-6 && (out[1] / out[3]).abs() < 1e-6, "{out:?}");
-    }
-
-    #[test]
-    fn the_header_has_the_shape_of_what_was_seen() {
-        use crate::geometry::Frustum;
-        let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("pair.exr");
-        let eye = |name: &str, x0: f64, x1: f64| {
-            let frustum = Frustum { x0, x1, y0: -1.0, y1: 3.0, z0: -100.0, z1: -0.1 };
-            ViewPixels { clip_from_view: frustum.clip_from_view(), ..view(name, 16, 8) }
-        };
-        write_exr(&path, &[eye("left", -1.5, 0.5), eye("right", -0.25, 2.25)]).unwrap();
-        let image = read_back(&path);
-        // Two by four, in sixteen by eight pixels.
-        assert_eq!(image.attributes.pixel_aspect, 0.25);
-        let windows = image.layer_data.iter().map(|layer| {
-            let Vec2(x, y) = layer.attributes.screen_window_center;
-            [x, y, layer.attributes.screen_window_width]
-        });
-        assert_eq!(windows.collect::<Vec<_>>(), [[-0.5, 1.0, 2.0], [1.0, 1.0, 2.5]]);
-    }
-
-    #[test]
-    fn equal_pixels_give_equal_bytes() {
-        let dir = tempfile::tempdir().unwrap();
-        let bytes = ["a.exr", "b.exr"].map(|name| {
-            let path = dir.path().join(name);
-            write_exr(&path, &[view("left", 40, 37), view("right", 40, 37)]).unwrap();
-            std::fs::read(path).unwrap()
-        });
-        assert_eq!(bytes[0], bytes[1]);
-    }
-
-    #[test]
-    fn data_of_the_wrong_length_is_refused() {
-        let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("x.exr");
-        let mut broken = view("mono", 4, 2);
-        broken.depth.pop();
-        assert!(matches!(write_exr(&path, &[broken]), Err(Error::Internal(_))));
-        assert!(matches!(write_exr(&path, &[]), Err(Error::Internal(_))));
-        assert!(!path.exists());
-    }
-}
+mod tests;

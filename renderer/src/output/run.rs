@@ -8,7 +8,7 @@ use super::rows::Row;
 use super::stages::StageMinima;
 use super::summary::Summary;
 use super::{tables, trace};
-use crate::config::{Assign, Config, Labels, Test, run_name};
+use crate::config::{Assign, Config, ExrLayout, Labels, Test, run_name};
 use crate::lights::LightsFrom;
 use crate::measure::{FrameCounts, FrameTimes, FrameTrace, ViewPixels};
 use crate::methods::Method;
@@ -85,15 +85,14 @@ impl RunWriter {
         Ok(Self { staged: StagedDirectory::create(&out.join(name), MANIFEST)? })
     }
 
-    /// Writes a frame's `frames/NNNNNN.exr` and its previews. `most_lights` is the upper end of the heat map, the
-    /// frame's own most where `None`.
+    /// Writes a frame's `frames/NNNNNN.exr` and its previews, whose heat map ends at the frame's own most lights.
     ///
     /// # Errors
     /// A file cannot be written.
-    pub fn write_images(&self, frame: u32, views: &[ViewPixels], most_lights: Option<u32>) -> Result<()> {
+    pub fn write_images(&self, frame: u32, views: &[ViewPixels], layout: ExrLayout) -> Result<()> {
         let (directory, stem) = (self.staged.path().join("frames"), format!("{frame:06}"));
-        write_exr(&directory.join(format!("{stem}.exr")), views)
-            .and_then(|()| write_previews(&directory, &stem, views, most_lights))
+        write_exr(&directory.join(format!("{stem}.exr")), views, layout)
+            .and_then(|()| write_previews(&directory, &stem, views, None))
             .map_err(|error| self.staged.told(error))
     }
 

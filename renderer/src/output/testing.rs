@@ -63,6 +63,7 @@ pub(super) fn view(name: &str, width: u32, height: u32) -> ViewPixels {
         width,
         height,
         color: (0..pixels).map(|i| [shade(i, 0.01), shade(i, 0.02), shade(i, 0.03), f16::ONE]).collect(),
+        background: [0.0; 3],
         depth: (0..pixels).map(|i| if i == 0 { f32::INFINITY } else { i as f32 * 0.1 }).collect(),
         light_count: (0..pixels).map(|i| i * 3).collect(),
         fragment_count: (0..pixels).map(|i| i * 7).collect(),

@@ -1,6 +1,6 @@
 use super::testing::{counts, manifest, times, view};
 use super::*;
-use crate::config::{Assign, Axis, Config, Labels};
+use crate::config::{Assign, Axis, Config, ExrLayout, Labels};
 use crate::lights::Lighting;
 use crate::measure::{FrameCounts, FrameTimes};
 use std::collections::BTreeMap;
@@ -247,7 +247,7 @@ fn contents(directory: &Path) -> BTreeMap<String, Vec<u8>> {
 
 fn write_run(out: &Path) {
     let writer = RunWriter::create(out, "encl-ortho-4").unwrap();
-    writer.write_images(40, &[view("left", 4, 3), view("right", 4, 3)], None).unwrap();
+    writer.write_images(40, &[view("left", 4, 3), view("right", 4, 3)], ExrLayout::Multipart).unwrap();
     writer.finish(&manifest(), &[counts(40)], &[times(0, 40, 8.0)]).unwrap();
 }
 
@@ -290,7 +290,7 @@ fn an_unfinished_run_leaves_the_earlier_one() {
     write_run(dir.path());
     let before = contents(dir.path());
     let writer = RunWriter::create(dir.path(), "encl-ortho-4").unwrap();
-    writer.write_images(0, &[view("mono", 2, 2)], None).unwrap();
+    writer.write_images(0, &[view("mono", 2, 2)], ExrLayout::Multipart).unwrap();
     drop(writer);
     assert_eq!(contents(dir.path()), before);
 }
@@ -300,11 +300,11 @@ fn a_file_that_cannot_be_written_is_named_by_where_it_was_to_be() {
     let dir = tempfile::tempdir().unwrap();
     let writer = RunWriter::create(dir.path(), "run").unwrap();
     let pixels = [view("mono", 2, 2)];
-    writer.write_images(0, &pixels, None).unwrap();
+    writer.write_images(0, &pixels, ExrLayout::Multipart).unwrap();
     let staged = fs::read_dir(dir.path()).unwrap().next().unwrap().unwrap().path();
     fs::remove_dir_all(staged.join("frames")).unwrap();
     fs::write(staged.join("frames"), "in the way").unwrap();
-    let error = writer.write_images(0, &pixels, None).unwrap_err().to_string();
+    let error = writer.write_images(0, &pixels, ExrLayout::Multipart).unwrap_err().to_string();
     assert!(error.starts_with(&format!("{}: ", dir.path().join("run/frames").display())), "{error}");
 }
 

@@ -10,8 +10,11 @@ use crate::draw_list::SurfaceKind;
 use crate::pass::Recorder;
 use crate::targets::TargetName;
 
-/// What is seen where nothing was drawn: a dim night sky, linear, that covers nothing.
-pub const BACKGROUND: [f32; 4] = [0.004, 0.006, 0.012, 0.0];
+/// What is seen where nothing was drawn: a dim night sky, linear.
+pub const BACKGROUND: [f32; 3] = [0.004, 0.006, 0.012];
+
+/// Before anything is drawn: the background, which covers nothing.
+const CLEARED: [f32; 4] = [BACKGROUND[0], BACKGROUND[1], BACKGROUND[2], 0.0];
 
 /// Shades all views, of which `depth` is laid down and for which `lists` serve.
 pub fn record(r: &mut Recorder, frame: &Frame, depth: Depth, lists: LightLists) -> Color {
@@ -40,7 +43,7 @@ fn shade(r: &mut Recorder, frame: &Frame, eyes: Eyes) {
 
 fn surfaces(r: &mut Recorder, frame: &Frame, eyes: Eyes, kind: SurfaceKind) {
     let first = kind == SurfaceKind::Opaque;
-    let radiance = if first { ColorUse::Clear(BACKGROUND) } else { ColorUse::Keep };
+    let radiance = if first { ColorUse::Clear(CLEARED) } else { ColorUse::Keep };
     let pass = SurfacePass {
         eyes,
         colors: &[(TargetName::Radiance, radiance)],

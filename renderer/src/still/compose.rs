@@ -5,6 +5,7 @@ use crate::geometry::Grid;
 use crate::gpu_interface::PixelData;
 use crate::measure::ViewPixels;
 use crate::output::{cluster_color, cubehelix, srgb_decode, srgb_encode, tone_map};
+use crate::passes::shade::BACKGROUND;
 use half::f16;
 use image::{Rgb, RgbImage};
 
@@ -65,6 +66,7 @@ pub fn compose(show: &Show, layers: &Layers, grids: &[Grid], view: ViewPixels) -
     }
     let pixels = ViewPixels {
         color,
+        background: if shows_radiance(show, layers) { BACKGROUND } else { NOTHING },
         depth: layers.distance.clone(),
         light_count: known.iter().map(|pixel| pixel.light_count).collect(),
         fragment_count: known.iter().map(|pixel| pixel.fragment_count).collect(),
@@ -72,6 +74,11 @@ pub fn compose(show: &Show, layers: &Layers, grids: &[Grid], view: ViewPixels) -
         ..view
     };
     (image, pixels)
+}
+
+/// Whether the picture is what the method shaded.
+fn shows_radiance(show: &Show, layers: &Layers) -> bool {
+    layers.shaded.is_some() && show.base == Base::Picture
 }
 
 /// How much of a pixel is covered below the overlay, 0 to 1.

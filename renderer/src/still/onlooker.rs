@@ -170,6 +170,7 @@ impl<'a> Onlooker<'a> {
             width,
             height,
             color: vec![],
+            background: [0.0; 3],
             depth: vec![],
             light_count: vec![],
             fragment_count: vec![],

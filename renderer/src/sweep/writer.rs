@@ -85,7 +85,7 @@ impl RunSink for Files<'_> {
 
     fn images(&mut self, frame: u32, views: &[ViewPixels]) -> Result<()> {
         let writer = self.writer.as_ref().ok_or_else(not_begun)?;
-        let written = writer.write_images(frame, views, None);
+        let written = writer.write_images(frame, views, self.part.config.exr_layout);
         self.noted(written)
     }
 
