@@ -22,6 +22,7 @@ pub mod draw_list;
 pub mod draw_slots;
 pub mod engine;
 pub mod error;
+pub mod export;
 pub mod frame;
 pub mod geometry;
 pub mod gpu_interface;

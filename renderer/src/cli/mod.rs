@@ -6,6 +6,7 @@ mod compare;
 mod completions;
 mod console;
 mod devices;
+mod export;
 mod import_recording;
 mod interrupt;
 mod replay;
@@ -65,6 +66,8 @@ enum Command {
     Still(Box<still::Args>),
     /// Compare two result sets run by run: counters exactly, times against their noise
     Compare(compare::Args),
+    /// Write results as one table for pandas, R or a spreadsheet
+    Export(export::Args),
     /// Measure one part by itself
     #[command(subcommand)]
     Bench(bench::Bench),
@@ -104,6 +107,7 @@ fn dispatch(command: Command, console: &Console) -> Result<()> {
         Command::Report(args) => report::run(&args, console),
         Command::Still(args) => still::run(*args, console),
         Command::Compare(args) => compare::run(&args, console),
+        Command::Export(args) => export::run(&args, console),
         Command::Bench(args) => bench::run(args, console),
         Command::Devices => devices::run(console),
         Command::Scene(args) => scene::run(&args, console),

@@ -196,6 +196,18 @@ impl Axis {
         (self.label)(run, all)
     }
 
+    /// The value of a run, as a table has it; empty where the runs of its method do not differ along the axis.
+    pub fn value(&self, run: &Config) -> String {
+        if run.methods.first().is_some_and(|method| !(self.applies)(method)) {
+            return String::new();
+        }
+        match self.label(run, run) {
+            // What no name of a run tells is as the configuration has it.
+            label if label.is_empty() => (self.called)(run).into_iter().next().unwrap_or_default(),
+            label => label,
+        }
+    }
+
     /// Whether `run` must be told from others of `all` by its value.
     fn tells_apart(&self, run: &Config, all: &Config) -> bool {
         match self.role {
@@ -370,6 +382,19 @@ mod tests {
                 runs.iter().map(|run| format!("{:?}", Labels::new(run, &scene))).collect();
             assert_eq!((names.len(), labels.len()), (runs.len(), runs.len()));
         }
+    }
+
+    #[test]
+    fn every_axis_has_a_value_where_it_applies() {
+        for axis in &AXES {
+            for run in runs() {
+                let value = axis.value(&run);
+                assert_eq!(value.is_empty(), !(axis.applies)(&run.methods[0]), "{axis:?}: {value}");
+            }
+        }
+        let value = |name: &str| Axis::named(name).unwrap().value(&runs()[0]);
+        let known = ["scene", "recording", "lights", "method", "test"].map(value);
+        assert_eq!(known, ["street", "bistro", "1", "indi-persp-64", "hs"]);
     }
 
     #[test]

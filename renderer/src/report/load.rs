@@ -11,12 +11,37 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+/// A run as it was found.
+pub struct Found {
+    /// Its path below the directory given.
+    pub name: String,
+    /// Where it is.
+    pub directory: PathBuf,
+    /// How it came to be.
+    pub manifest: Manifest,
+}
+
 /// Reads every run below `directories`.
 ///
 /// # Errors
 /// A directory is missing or holds no run, a file is missing, damaged or was written by something else, or runs come
 /// from several versions of the program.
 pub fn load(directories: &[PathBuf]) -> Result<ResultSet> {
+    let (found, older) = find(directories)?;
+    one_version(&found)?;
+    let loaded: Vec<Result<Run>> = found.par_iter().map(read_run).collect();
+    let mut runs = loaded.into_iter().collect::<Result<Vec<_>>>()?;
+    name_lights_files_once(&mut runs);
+    runs.sort_by_cached_key(|run| (run.setting.clone(), run.lighting.clone(), run.method.to_string()));
+    let first = &found[0].manifest;
+    Ok(ResultSet { runs, older, version: first.version.clone(), git_revision: first.git_revision.clone() })
+}
+
+/// The runs below `directories`, each once, of those that were asked to do the same the newest; and which were older.
+///
+/// # Errors
+/// A directory is missing or holds no run, or a manifest is damaged or was written by something else.
+pub fn find(directories: &[PathBuf]) -> Result<(Vec<Found>, Vec<Older>)> {
     let mut found = vec![];
     for directory in directories {
         let below = find_runs(directory)?;
@@ -24,17 +49,12 @@ pub fn load(directories: &[PathBuf]) -> Result<ResultSet> {
         found.extend(below.into_iter().map(|path| (name_below(root, &path), path)));
     }
     each_directory_once(&mut found);
-    let files = found.par_iter().map(|(_, path)| Manifest::read(path)).collect::<Vec<_>>();
-    let mut files = files.into_iter().collect::<Result<Vec<_>>>()?;
-    let older = keep_newest(&mut found, &mut files)?;
-    one_version(&found, &files)?;
-    let loaded: Vec<Result<Run>> =
-        found.par_iter().zip(&files).map(|((name, path), file)| read_run(name, path, file)).collect();
-    let mut runs = loaded.into_iter().collect::<Result<Vec<_>>>()?;
-    name_lights_files_once(&mut runs);
-    runs.sort_by_cached_key(|run| (run.setting.clone(), run.lighting.clone(), run.method.to_string()));
-    let first = &files[0];
-    Ok(ResultSet { runs, older, version: first.version.clone(), git_revision: first.git_revision.clone() })
+    let read = |(name, directory): (String, PathBuf)| {
+        let manifest = Manifest::read(&directory)?;
+        Ok(Found { name, directory, manifest })
+    };
+    let found: Vec<Result<Found>> = found.into_par_iter().map(read).collect();
+    keep_newest(found.into_iter().collect::<Result<_>>()?)
 }
 
 /// Directories that are given within each other hold the same runs.
@@ -44,24 +64,22 @@ fn each_directory_once(found: &mut Vec<(String, PathBuf)>) {
 }
 
 /// Of runs that were asked to do the same, leaves the newest; says which were older.
-fn keep_newest(found: &mut Vec<(String, PathBuf)>, files: &mut Vec<Manifest>) -> Result<Vec<Older>> {
-    let key = |((_, path), file): (&(String, PathBuf), &Manifest)| {
-        let method = manifest::method(file, path)?;
+fn keep_newest(mut found: Vec<Found>) -> Result<(Vec<Found>, Vec<Older>)> {
+    let key = |Found { directory, manifest, .. }: &Found| {
+        let method = manifest::method(manifest, directory)?;
         // How many views there are follows from the recording.
-        let key = (manifest::setting(file, 0, method), manifest::lights_key(file), method.to_string());
-        Ok((key, age(path, &file.started)))
+        let setting = manifest::setting(manifest, 0, method);
+        let key = (setting, manifest::lights_key(manifest), method.to_string());
+        Ok((key, age(directory, &manifest.started)))
     };
-    let keys = found.iter().zip(files.iter()).map(key).collect::<Result<Vec<_>>>()?;
+    let keys = found.iter().map(key).collect::<Result<Vec<_>>>()?;
     let newest = newest_of_each(&keys);
-    let name = |index: usize| found[index].0.clone();
+    let name = |index: usize| found[index].name.clone();
     let pairs = newest.iter().enumerate().filter(|(index, newest)| index != *newest);
     let older = pairs.map(|(index, &newest)| Older { run: name(index), newer: name(newest) }).collect();
-    let is_newest = |index: usize| newest[index] == index;
     let mut index = 0..;
-    found.retain(|_| index.next().is_some_and(is_newest));
-    let mut index = 0..;
-    files.retain(|_| index.next().is_some_and(is_newest));
-    Ok(older)
+    found.retain(|_| index.next().is_some_and(|index| newest[index] == index));
+    Ok((found, older))
 }
 
 /// One file of lights may lie under several names: it is called by the first.
@@ -80,21 +98,21 @@ fn name_below(root: &Path, path: &Path) -> String {
     below.display().to_string()
 }
 
-fn one_version(found: &[(String, PathBuf)], files: &[Manifest]) -> Result<()> {
-    let first = &files[0];
-    let built = manifest::built;
-    let Some(other) = files.iter().position(|file| built(file) != built(first)) else { return Ok(()) };
+fn one_version(found: &[Found]) -> Result<()> {
+    let built = |found: &Found| manifest::built(&found.manifest);
+    let first = &found[0];
+    let Some(other) = found.iter().find(|found| built(found) != built(first)) else { return Ok(()) };
     Err(Error::input(format!(
         "results of different versions cannot be compared: {} was measured by {}, {} by {}; report them apart, or \
          measure anew",
-        found[0].1.display(),
+        first.directory.display(),
         built(first),
-        found[other].1.display(),
-        built(&files[other]),
+        other.directory.display(),
+        built(other),
     )))
 }
 
-fn read_run(name: &str, directory: &Path, file: &Manifest) -> Result<Run> {
+fn read_run(Found { name, directory, manifest: file }: &Found) -> Result<Run> {
     let method = manifest::method(file, directory)?;
     check_run(directory)?;
     let (views, frames) = tables::read_frames(directory)?;
@@ -104,7 +122,7 @@ fn read_run(name: &str, directory: &Path, file: &Manifest) -> Result<Run> {
         (distributions, most_fragments) = tables::read_histograms(directory, &frames.numbers)?;
     }
     Ok(Run {
-        name: name.to_owned(),
+        name: name.clone(),
         setting: manifest::setting(file, views, method),
         method,
         lighting: manifest::lighting(file),

@@ -37,6 +37,7 @@ mod testing;
 mod tests;
 
 pub use claim::{ByWay, Claim, Evidence, Number, Verdict};
+pub(crate) use load::{Found, find};
 
 use crate::output::{Older, write_whole};
 use crate::{Error, Result};
