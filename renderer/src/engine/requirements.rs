@@ -44,6 +44,12 @@ pub fn check_device(context: &Context, config: &Config, views: ViewSet) -> Resul
             context.info.name
         )));
     }
+    if config.multiview && samples > 1 && !limits.multisample_array_images {
+        return Err(Error::Device(format!(
+            "{} lacks multisampleArrayImage, which drawing all views at once with MSAA needs: leave --multiview out",
+            context.info.name
+        )));
+    }
     if views.mirrors && !limits.shader_clip_distance {
         return Err(Error::Device(format!(
             "{} lacks shaderClipDistance, which views in mirrors need: use a recording without",

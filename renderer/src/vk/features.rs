@@ -1,6 +1,28 @@
 //! The device features that the renderer needs, and those it takes where they are.
 
-use ash::vk;
+use ash::{khr, vk};
+use std::ffi::c_char;
+
+/// What a device of the portability subset has of what others must have.
+type PortabilitySubset = vk::PhysicalDevicePortabilitySubsetFeaturesKHR<'static>;
+
+/// What such a device is opened with.
+const PORTABILITY: [*const c_char; 1] = [khr::portability_subset::NAME.as_ptr()];
+
+/// What `physical` has of the features that only devices of the portability subset (VK_KHR_portability_subset) may lack;
+/// `None` for a device that lacks none.
+pub(super) fn portability_subset(
+    instance: &ash::Instance,
+    physical: vk::PhysicalDevice,
+) -> Option<PortabilitySubset> {
+    let extensions = unsafe { instance.enumerate_device_extension_properties(physical) }.unwrap_or_default();
+    let name = Ok(khr::portability_subset::NAME);
+    extensions.iter().find(|extension| extension.extension_name_as_c_str() == name)?;
+    let mut subset = PortabilitySubset::default();
+    let mut query = vk::PhysicalDeviceFeatures2::default().push_next(&mut subset);
+    unsafe { instance.get_physical_device_features2(physical, &mut query) };
+    Some(subset)
+}
 
 /// Feature structures chained for a query or for device creation.
 #[derive(Default)]
@@ -9,12 +31,13 @@ pub(super) struct Features {
     v11: vk::PhysicalDeviceVulkan11Features<'static>,
     v12: vk::PhysicalDeviceVulkan12Features<'static>,
     v13: vk::PhysicalDeviceVulkan13Features<'static>,
+    portability: Option<PortabilitySubset>,
 }
 
 impl Features {
     /// What `physical`, a Vulkan 1.3 device, offers.
     pub fn query(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Self {
-        let mut offered = Self::default();
+        let mut offered = Self { portability: portability_subset(instance, physical), ..Self::default() };
         let mut query = vk::PhysicalDeviceFeatures2::default()
             .push_next(&mut offered.v11)
             .push_next(&mut offered.v12)
@@ -43,7 +66,7 @@ impl Features {
 
     /// What to enable on a device that misses nothing: all required features, and of the optional ones those offered.
     pub fn enabled(&self) -> Self {
-        let mut enabled = Self::default();
+        let mut enabled = Self { portability: self.portability, ..Self::default() };
         enabled.core = vk::PhysicalDeviceFeatures::default()
             .fragment_stores_and_atomics(true)
             .sample_rate_shading(self.core.sample_rate_shading == vk::TRUE)
@@ -71,12 +94,18 @@ impl Features {
         enabled
     }
 
-    /// `info` with these features, which must outlive it.
+    /// `info` with these features, which must outlive it, and the extension that a device of the portability subset must
+    /// be opened with.
     pub fn attach<'a>(&'a mut self, info: vk::DeviceCreateInfo<'a>) -> vk::DeviceCreateInfo<'a> {
-        info.enabled_features(&self.core)
+        let info = info
+            .enabled_features(&self.core)
             .push_next(&mut self.v11)
             .push_next(&mut self.v12)
-            .push_next(&mut self.v13)
+            .push_next(&mut self.v13);
+        match &mut self.portability {
+            Some(subset) => info.enabled_extension_names(&PORTABILITY).push_next(subset),
+            None => info,
+        }
     }
 }
 
@@ -92,5 +121,16 @@ mod tests {
         assert!(offered.missing().is_empty());
         offered.v12.scalar_block_layout = vk::FALSE;
         assert_eq!(offered.missing(), ["scalarBlockLayout"]);
+    }
+
+    #[test]
+    fn a_device_of_the_portability_subset_is_opened_as_one() {
+        let extensions =
+            |mut features: Features| features.attach(vk::DeviceCreateInfo::default()).enabled_extension_count;
+        let subset = PortabilitySubset::default().multisample_array_image(true);
+        let offered = Features { portability: Some(subset), ..Features::default() };
+        let enabled = offered.enabled();
+        assert!(enabled.portability.is_some_and(|subset| subset.multisample_array_image == vk::TRUE));
+        assert_eq!((extensions(enabled), extensions(Features::default())), (1, 0));
     }
 }

@@ -3,13 +3,14 @@
 use super::validation::{ValidationLog, messenger_info};
 use super::{no_device, vk_error};
 use crate::{Error, Result};
-use ash::{ext, vk};
+use ash::{ext, khr, vk};
 use std::ffi::CStr;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock};
 
 const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
-/// A Vulkan 1.3 instance with, where available, debug utils, and, where asked for, the validation layers.
+/// A Vulkan 1.3 instance with, where available, debug utils and drivers of the portability subset, and, where asked for,
+/// the validation layers.
 pub(super) struct Instance {
     pub handle: ash::Instance,
     pub debug_utils: bool,
@@ -36,7 +37,9 @@ impl Instance {
         }
         let debug_utils = has_extension(entry, None, ext::debug_utils::NAME)?
             || (validate && has_extension(entry, Some(VALIDATION_LAYER), ext::debug_utils::NAME)?);
+        let portability = has_extension(entry, None, khr::portability_enumeration::NAME)?;
         let mut extensions = Vec::new();
+        extensions.extend(portability.then_some(khr::portability_enumeration::NAME.as_ptr()));
         extensions.extend(debug_utils.then_some(ext::debug_utils::NAME.as_ptr()));
         extensions.extend(validate.then_some(ext::validation_features::NAME.as_ptr()));
 
@@ -48,7 +51,13 @@ impl Instance {
         let mut messenger = messenger_info(&log);
         let synchronization = [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
         let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&synchronization);
+        // Drivers that are Vulkan but for a few features, such as MoltenVK, are hidden from who does not ask for them.
+        let every_driver = match portability {
+            true => vk::InstanceCreateFlags::ENUMERATE_PORTABILITY_KHR,
+            false => vk::InstanceCreateFlags::empty(),
+        };
         let mut info = vk::InstanceCreateInfo::default()
+            .flags(every_driver)
             .application_info(&application)
             .enabled_layer_names(layers)
             .enabled_extension_names(&extensions);
@@ -108,7 +117,7 @@ fn load() -> Result<ash::Entry> {
     let entry = unsafe { ash::Entry::load() }.map_err(|error| {
         Error::Device(format!(
             "no Vulkan loader ({}): install it and a driver (Debian: apt install libvulkan1 and your GPU's driver, \
-             or mesa-vulkan-drivers for the software device lavapipe)",
+             or mesa-vulkan-drivers for the software device lavapipe; macOS: the Vulkan SDK, which has both)",
             error.to_string().lines().next().unwrap_or_default()
         ))
     })?;

@@ -1,5 +1,6 @@
 //! What a device is called and what it can hold.
 
+use super::features::portability_subset;
 use crate::machine::{Device, Heap, uuid_text};
 use ash::{ext, vk};
 use serde::Serialize;
@@ -80,6 +81,8 @@ pub struct Limits {
     pub shader_output_layer: bool,
     /// Whether vertex shaders may clip.
     pub shader_clip_distance: bool,
+    /// Whether multi-sampled images may have several layers: devices of the portability subset may lack it.
+    pub multisample_array_images: bool,
     /// Whether one pass may draw several views.
     pub multiview: bool,
     /// Views of one multiview pass.
@@ -217,6 +220,8 @@ pub(super) fn read_limits(instance: &ash::Instance, physical: vk::PhysicalDevice
             .sum(),
         shader_output_layer: f12.shader_output_layer == vk::TRUE,
         shader_clip_distance: core.shader_clip_distance == vk::TRUE,
+        multisample_array_images: portability_subset(instance, physical)
+            .is_none_or(|subset| subset.multisample_array_image == vk::TRUE),
         multiview: f11.multiview == vk::TRUE,
         max_multiview_views: v11.max_multiview_view_count,
         host_query_reset: f12.host_query_reset == vk::TRUE,
