@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what manylight needs and this machine lacks: a C++ compiler, the Vulkan loader, and lavapipe where no GPU
 # driver is there. With --validation also the validation layers, with --browser also Chromium, in which reports are
-# tested, with --openexr also OpenEXR's own programs, which read images in tests. Idempotent, asks nothing, needs root or
-# sudo only when something is missing.
+# tested, with --openexr also OpenEXR's own programs, which read images in tests, with --packaging what Debian packages are
+# made with. Idempotent, asks nothing, needs root or sudo only when something is missing.
 set -euo pipefail
 
 packages=()
@@ -50,8 +50,9 @@ for option in "$@"; do
         --validation) has_validation || packages+=(vulkan-validationlayers) ;;
         --browser) has_browser || packages+=(chromium) ;;
         --openexr) need_command exrmultipart openexr ;;
+        --packaging) need_command dpkg-shlibdeps dpkg-dev ;;
         *)
-            echo "setup: unknown option $option: use --validation, --browser or --openexr" >&2
+            echo "setup: unknown option $option: use --validation, --browser, --openexr or --packaging" >&2
             exit 2
             ;;
     esac
