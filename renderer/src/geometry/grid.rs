@@ -165,7 +165,7 @@ impl Grid {
     /// for orthographic grids.
     ///
     /// Slice k holds what is not nearer than plane k and nearer than plane k + 1, compared in f32 on the device. They
-    /// ascend strictly, see [`super::plan()`].
+    /// ascend strictly, see [`crate::methods::grid::plan()`].
     pub fn slice_planes(&self, planes: &mut Vec<f32>) {
         planes.clear();
         if let ClusterSpace::Perspective { frustum, ratio } = self.space {
