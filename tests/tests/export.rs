@@ -68,6 +68,11 @@ fn the_table_holds_what_was_measured_with_all_that_tells_rows_apart() {
             ];
             assert!(same.iter().all(|(column, value)| row[*column] == *value), "{row:?}");
             assert!(!row["device"].is_empty() && row["intensity"] == "100");
+            let run = fs::read(Path::new(&row["directory"]).join("run.json")).unwrap();
+            let run: serde_json::Value = serde_json::from_slice(&run).unwrap();
+            let doubts = run["doubts"].as_array().unwrap().iter().map(|doubt| doubt.as_str().unwrap());
+            assert_eq!(row["doubts"], doubts.collect::<Vec<_>>().join("; "));
+            assert_eq!(row["cpu"], run["machine"]["host"]["cpu"].as_str().unwrap_or_default());
             assert_eq!(row["clusters_axis"], if method == "all-lights" { "" } else { "visible" });
         }
     }

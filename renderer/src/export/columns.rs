@@ -13,7 +13,7 @@ const OPTIONS: [&str; 7] =
 type Column = (&'static str, fn(&Manifest) -> String);
 
 /// What else of a run's manifest there is.
-const ABOUT: [Column; 12] = [
+const ABOUT: [Column; 14] = [
     ("intensity", |run| run.lighting.map_or_else(String::new, |lighting| lighting.intensity.to_string())),
     ("cutoff", |run| run.lighting.map_or_else(String::new, |lighting| lighting.cutoff.to_string())),
     ("r0", |run| run.lighting.map_or_else(String::new, |lighting| lighting.r0.to_string())),
@@ -23,6 +23,8 @@ const ABOUT: [Column; 12] = [
     ("device", |run| run.device.name.clone()),
     ("driver", |run| run.device.driver.clone()),
     ("api", |run| run.device.api.clone()),
+    ("cpu", |run| run.machine.host.cpu.clone().unwrap_or_default()),
+    ("doubts", |run| run.doubts.join("; ")),
     ("version", |run| run.version.clone()),
     ("git_revision", |run| run.git_revision.clone()),
     ("started", |run| run.started.clone()),
