@@ -1,15 +1,16 @@
 //! Whole frames of the device against the CPU twins of what its shaders do, and the far plane, where marking and
 //! shading might disagree.
 
-use manylight::assign::Marking;
+use manylight::assign::{Clusters, Marking};
 use manylight::config::{Config, ExrFrames, FrameRange};
-use manylight::cpu::{self, DepthImage, Marks};
+use manylight::cpu::{self, DepthImage, Marks, Visible};
 use manylight::engine::{FramePlan, plan_frames};
 use manylight::geometry::Frustum;
 use manylight::geometry::views::View;
 use manylight::inputs::Inputs;
-use manylight::lights::{Attenuation, PointLight};
+use manylight::lights::{Attenuation, Lighting, PointLight};
 use manylight::measure::{ClusterRecord, ViewPixels};
+use manylight::methods::grid::twin;
 use manylight_tests::{Run, run, unpacked};
 use std::path::Path;
 
@@ -139,6 +140,50 @@ fn marks_equal_their_twin() {
     compare_marks("bistro", "indi-persp-16", Marking::Depth);
     compare_marks("bistro-vive", "encl-ortho-4", Marking::Depth);
     compare_marks("bistro-vive", "indi-displ-16-32", Marking::Geometry);
+}
+
+/// The lists of a whole frame by `method`, for visible or for all clusters, on the device and by the family's twin.
+fn compare_lists(method: &str, clusters: Clusters) {
+    let config = Config {
+        methods: vec![method.parse().unwrap()],
+        clusters: vec![clusters],
+        resolution: [160, 90],
+        lights: vec![Lighting { count: 300, intensity: 20.0, cutoff: 0.5, r0: 0.1 }],
+        frames: FrameRange { first: 300, end: Some(301), step: 1 },
+        runs: 0,
+        ..Config::default()
+    };
+    let inputs = Inputs::load(&config).unwrap();
+    let lights = inputs.light_source(&config.lights_of_run()).unwrap().at_frame(300).list.to_vec();
+    let (plan, test) = (plan(&config), config.test[0].of(&config.methods[0]));
+    let run = run(config).remove(0);
+    for (c, grid) in plan.grids.iter().enumerate() {
+        let mut fragments = vec![0; grid.cluster_count() as usize];
+        for cluster in &run.counts[0].clusterings[c].clusters {
+            fragments[cluster.index as usize] = cluster.fragments;
+        }
+        let listed = twin::listed_clusters(grid, clusters, &fragments);
+        let device: Vec<u32> = run.counts[0].clusterings[c].clusters.iter().map(|c| c.index).collect();
+        assert_eq!(device, listed, "{method} {clusters}");
+        let lists = twin::light_lists(Visible { grid, clusters: &listed }, &lights, test, 1e-3);
+        for place in 0..listed.len() {
+            let sure = |list: &[u32]| -> Vec<u32> {
+                let close = &lists.borderline[place];
+                list.iter().copied().filter(|light| !close.contains(light)).collect()
+            };
+            assert_eq!(sure(run.lists[c].list(place)), sure(lists.list(place)), "{method} {clusters}");
+        }
+        let close: usize = lists.borderline.iter().map(Vec::len).sum();
+        assert!(lists.indices.len() > 300 && close * 100 < lists.indices.len(), "{method}: {close}");
+    }
+}
+
+#[test]
+fn lists_of_frames_equal_their_twin() {
+    compare_lists("tiled-16", Clusters::Visible);
+    compare_lists("tiled-16", Clusters::All);
+    compare_lists("encl-persp-32", Clusters::All);
+    compare_lists("indi-ortho-8", Clusters::Visible);
 }
 
 /// What fragments on the far plane cost: it is where the depth buffer is cleared to, and seen by the test for equal

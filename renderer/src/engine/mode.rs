@@ -114,20 +114,10 @@ impl Chosen {
             listed: self.clusters,
             slice_planes,
             lights: mode.lights,
-            capacities: self.capacities(clusters, mode.capacities),
+            capacities: self.method.capacities(clusters, self.clusters, mode.capacities),
             assigner: self.assigner,
             counting: mode.counting,
             pixels: u64::from(run.resolution[0]) * u64::from(run.resolution[1]),
-        }
-    }
-
-    /// What the buffers hold at first: nothing without lists, every cluster where all have lists.
-    fn capacities(&self, clusters: u64, first: Capacities) -> Capacities {
-        let all = u32::try_from(clusters).unwrap_or(u32::MAX);
-        match (self.method.has_lists(), self.clusters) {
-            (false, _) => Capacities { visible_clusters: 0, light_indices: 0 },
-            (true, Clusters::Visible) => first,
-            (true, Clusters::All) => Capacities { visible_clusters: all, ..first },
         }
     }
 }
@@ -135,4 +125,30 @@ impl Chosen {
 /// What the shaders of a run are specialised for; its configuration has one value on every axis.
 pub fn variant(run: &Config, mode: &Mode) -> Variant {
     Chosen::of(run, mode).variant(run, mode)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::ClusterSpace;
+    use crate::geometry::views::Pose;
+    use glam::DVec3;
+
+    fn plan(dimensions: [u32; 3]) -> FramePlan {
+        let space = ClusterSpace::Orthographic { min: DVec3::ZERO, max: DVec3::ONE };
+        FramePlan { frame: 7, views: vec![], grids: vec![Grid { pose: Pose::IDENTITY, space, dimensions }] }
+    }
+
+    #[test]
+    fn a_grid_larger_than_planned_is_refused_in_one_line() {
+        let largest = LargestGrid::of(&[plan([4, 3, 2]), plan([2, 2, 5])]);
+        assert_eq!(largest, LargestGrid { clusters: 24, slice_planes: 6 });
+        for fits in [[4, 3, 2], [4, 1, 5], [1, 1, 1]] {
+            largest.check(&plan(fits)).unwrap();
+        }
+        for beyond in [[5, 5, 1], [1, 1, 6]] {
+            let message = largest.check(&plan(beyond)).unwrap_err().to_string();
+            assert!(message.starts_with("frame 7 needs a grid of") && !message.contains('\n'), "{message}");
+        }
+    }
 }

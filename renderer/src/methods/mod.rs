@@ -19,8 +19,10 @@ pub use grid::{GridMethod, Space};
 pub use kinds::{KINDS, Kind};
 
 use crate::Result;
+use crate::assign::Clusters;
 use crate::geometry::views::View;
 use crate::geometry::{DisplacedVolume, Grid};
+use crate::measure::Capacities;
 use crate::pass::Recorder;
 use crate::passes::{Depth, Frame, LightLists, Lights};
 
@@ -47,6 +49,14 @@ impl Method {
         match self {
             Self::AllLights => Ok(vec![]),
             Self::Grid(grid) => grid::plan(grid.space, grid.sharing, views, resolution, volume),
+        }
+    }
+
+    /// What a clustering's buffers hold at first, for grids of up to `clusters` clusters; nothing without lists.
+    pub fn capacities(&self, clusters: u64, listed: Clusters, first: Capacities) -> Capacities {
+        match self {
+            Self::AllLights => Capacities { visible_clusters: 0, light_indices: 0 },
+            Self::Grid(_) => grid::capacities(clusters, listed, first),
         }
     }
 

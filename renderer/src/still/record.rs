@@ -16,7 +16,7 @@ pub struct Drawing<'a> {
     pub lookup: Option<usize>,
     /// In which clusterings.
     pub clusterings: Vec<usize>,
-    /// Vertex buffer of [`lines::Line`], and how many.
+    /// Vertex buffer of [`crate::pipelines::Line`], and how many.
     pub lines: Option<(&'a Buffer, u32)>,
     /// Whether the lights' volumes are drawn.
     pub spheres: bool,

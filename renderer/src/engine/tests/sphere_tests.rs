@@ -126,6 +126,8 @@ fn no_touching_light_is_lost_in_perspective_grids() {
     no_touching_light_is_lost(PERSP, frustum_grid([7, 6, 13]), 30.0);
     // Few, large clusters: the lengths that are projected are as long as the grid.
     no_touching_light_is_lost(PERSP, frustum_grid([2, 2, 3]), 30.0);
+    // Tiles: one slice over the whole depth.
+    no_touching_light_is_lost(PERSP, frustum_grid([40, 30, 1]), 30.0);
 }
 
 #[test]

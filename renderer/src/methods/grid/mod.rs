@@ -7,10 +7,13 @@
 //! | bounds tested against lights | [`Bounds`] |
 //! | list store | [`ListStore`] |
 //!
-//! What the assignment works with is in [`crate::assign`], its twins are in [`crate::cpu`].
+//! [`plan`] makes the grids, [`capacities`] sizes their buffers, [`record`] runs their passes, `lookup/clustered.glsl` walks
+//! their lists, [`twin`] does the same on the CPU. What the assignment works with is in [`crate::assign`].
 
 mod plan;
 mod record;
+mod resources;
+pub mod twin;
 
 #[cfg(test)]
 mod properties;
@@ -19,6 +22,7 @@ mod worked_values;
 
 pub use plan::plan;
 pub use record::{light_lists, record};
+pub use resources::capacities;
 
 use super::Sharing;
 use crate::geometry::CellShape;
