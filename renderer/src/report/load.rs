@@ -48,7 +48,7 @@ fn keep_newest(found: &mut Vec<(String, PathBuf)>, files: &mut Vec<Manifest>) ->
     let key = |((_, path), file): (&(String, PathBuf), &Manifest)| {
         let method = manifest::method(file, path)?;
         // How many views there are follows from the recording.
-        let key = (manifest::setting(file, 0, method), manifest::lights_key(file), method.to_string());
+        let key = (manifest::setting(file, 0, method)?, manifest::lights_key(file), method.to_string());
         Ok((key, age(path, &file.started)))
     };
     let keys = found.iter().zip(files.iter()).map(key).collect::<Result<Vec<_>>>()?;
@@ -105,7 +105,7 @@ fn read_run(name: &str, directory: &Path, file: &Manifest) -> Result<Run> {
     }
     Ok(Run {
         name: name.to_owned(),
-        setting: manifest::setting(file, views, method),
+        setting: manifest::setting(file, views, method)?,
         method,
         lighting: manifest::lighting(file),
         device: [file.device.name.clone(), file.device.driver.clone(), file.device.api.clone()],
