@@ -1,9 +1,10 @@
 //! Reading result sets: which runs there are, and the tables of one run.
 
 use crate::Result;
-use crate::config::{Axis, Config, Role};
+use crate::config::{Axis, Bearing, Config, Role};
 use crate::lights::Lighting;
 use crate::output::{self, Age, FrameRow, Manifest, Row, Source, each_row, saved_frames};
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -37,7 +38,7 @@ fn read_entry(directory: &Path) -> Result<RunEntry> {
     let run = Manifest::read(directory)?;
     let sha256 = run.lights_file.as_ref().map(|input| input.sha256.clone());
     Ok(RunEntry {
-        identity: identity(&run),
+        identity: identity(&run)?,
         way: Axis::of_role(Role::Way).map(|axis| axis.label(&run.config, &run.config)).collect(),
         lights_file: run.config.lights_file.as_ref().map(|path| (path.display().to_string(), sha256)),
         age: output::age(directory, &run.started),
@@ -67,15 +68,15 @@ impl RunEntry {
 
 /// What decides what a run counts; the rest of its configuration says where results go, or how often and on what they
 /// are measured.
-fn identity(run: &Manifest) -> Identity {
-    let Config { resolution, msaa, attenuation, marking, displaced_volume, scene_lights, .. } = &run.config;
-    vec![
+fn identity(run: &Manifest) -> Result<Identity> {
+    let counts = run.config.settings(|bearing| matches!(bearing, Bearing::Counts | Bearing::Shown))?;
+    Ok(vec![
         run.scene.sha256.clone(),
         run.recording.sha256.clone(),
         run.method.clone(),
         run.lighting.map_or_else(String::new, |lighting| lighting.to_string()),
-        format!("{resolution:?} {msaa} {attenuation} {marking:?} {displaced_volume:?} {scene_lights}"),
-    ]
+        Value::Object(counts).to_string(),
+    ])
 }
 
 /// Such as `indi-persp-64, 1000 lights (I 100, I0 0.5, R0 0.1), street, bistro-vive, 320x180, 1 sample`.

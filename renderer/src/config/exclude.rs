@@ -77,6 +77,11 @@ fn matches(pattern: &str, name: &str) -> bool {
     rest.char_indices().map(|(start, _)| start).chain([rest.len()]).any(|start| matches(tail, &rest[start..]))
 }
 
+/// Refuses a rule that says nothing.
+pub(super) fn check_all(rules: &[Exclude]) -> Result<(), String> {
+    rules.iter().try_for_each(Exclude::check)
+}
+
 /// Names of all axes.
 fn axis_names() -> [&'static str; AXES.len()] {
     std::array::from_fn(|place| AXES[place].name)
@@ -92,7 +97,7 @@ impl Exclude {
     }
 
     /// Refuses a rule that says nothing.
-    pub(super) fn check(&self) -> Result<(), String> {
+    fn check(&self) -> Result<(), String> {
         if self.wanted.is_empty() {
             let names = axis_names().join(", ");
             return Err(format!("an empty rule leaves everything out: give any of {names}"));

@@ -1,5 +1,6 @@
 //! Frame selections: `A..B/STEP` and the list of frames of which something is written.
 
+use super::values::passed;
 use super::{ExrFrames, FrameRange};
 use crate::{Error, Result};
 use serde::de::{self, SeqAccess, Visitor};
@@ -30,7 +31,7 @@ impl FrameRange {
     }
 
     /// Refuses an empty range and a step of zero.
-    pub(super) fn check(self) -> Result<Self, String> {
+    pub(super) fn check(&self) -> Result<(), String> {
         if self.step == 0 {
             return Err("a step of 0 frames: the step is at least 1".into());
         }
@@ -39,7 +40,7 @@ impl FrameRange {
                 "{}..{end} holds no frame: the end is left out and must be above the start",
                 self.first
             )),
-            _ => Ok(self),
+            _ => Ok(()),
         }
     }
 }
@@ -67,7 +68,7 @@ impl FromStr for FrameRange {
             None if span.is_empty() => (0, None),
             None => return Err(wrong()),
         };
-        Self { first, end, step: step.unwrap_or(1) }.check()
+        passed(Self { first, end, step: step.unwrap_or(1) }, Self::check)
     }
 }
 

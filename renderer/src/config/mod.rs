@@ -1,16 +1,18 @@
 //! Run configuration: typed, defaulted, unknown fields refused.
 //!
-//! Three layers, each over the one before: the built-in defaults, a JSON file, the flags. One declaration,
-//! [`Layer`], is the file's format, its schema and the flags at once.
+//! Three layers, each over the one before: the built-in defaults, a JSON file, the flags. A setting is one entry of
+//! `settings!`, in `settings.rs`: the flag, the file's format and its schema, the default and the check at once.
 
 mod axes;
 mod cases;
+mod declare;
 mod exclude;
 mod file;
 mod frames;
 mod layer;
 mod scenes;
 mod schema;
+mod settings;
 mod values;
 
 #[cfg(test)]
@@ -18,22 +20,20 @@ mod tests;
 
 pub use axes::{AXES, Axis, Labels, Role, run_name};
 pub use cases::Test;
+pub use declare::{Bearing, Setting};
 pub use exclude::Exclude;
-pub use layer::Layer;
 pub use schema::json_schema;
+pub use settings::{Config, Layer};
 pub use values::resolution as parse_resolution;
 
-use crate::assign::{Assigner, Clusters, Marking};
-use crate::culling::Culling;
-use crate::geometry::DisplacedVolume;
-use crate::lights::{Attenuation, Lighting, LightsFrom};
+use crate::assign::Assigner;
+use crate::lights::{Lighting, LightsFrom};
 use crate::measure::Capacities;
-use crate::methods::{Method, Sharing, Space};
 use crate::{Error, Result};
 use clap::ValueEnum;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// How the light lists are built; every way gives the same ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -117,132 +117,6 @@ pub struct SceneEntry {
     pub frames: Option<FrameRange>,
 }
 
-/// One fully resolved run configuration. Serialized, it is a configuration file again; read back, what is left out has
-/// its default.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Layer")]
-pub struct Config {
-    /// Built-in name or path of a scene.
-    pub scene: String,
-    /// Odd lines of OBJ and MTL files are errors instead of warnings.
-    pub strict: bool,
-    /// Bundled name or path of a recording.
-    pub recording: String,
-    /// Several scenes, each with its recording, instead of `scene` and `recording`; empty for that one.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub scenes: Vec<SceneEntry>,
-    /// What is left out of the product of scenes, lightings, methods, ways of assignment and tests.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub exclude: Vec<Exclude>,
-    /// Methods, each a run.
-    #[serde(serialize_with = "values::ser::methods")]
-    pub methods: Vec<Method>,
-    /// Lightings of the rain, each a run of every method; empty where lights come from a file or the scene.
-    pub lights: Vec<Lighting>,
-    /// Static lights from a CSV instead of the rain.
-    pub lights_file: Option<PathBuf>,
-    /// The scene's own point lights instead of the rain.
-    pub scene_lights: bool,
-    /// Width and height of each view, pixels.
-    pub resolution: [u32; 2],
-    /// Samples per pixel, 1 or 4.
-    pub msaa: u32,
-    /// Where instances are culled.
-    pub culling: Culling,
-    /// Prepass and shading draw all views at once.
-    pub multiview: bool,
-    /// Frames to render.
-    pub frames: FrameRange,
-    /// Temporal runs.
-    pub runs: u32,
-    /// Frames whose EXR and PNG images are written.
-    pub exr: ExrFrames,
-    /// How an EXR image holds several views.
-    pub exr_layout: ExrLayout,
-    /// Frames of the temporal runs that the trace shows.
-    pub trace: ExrFrames,
-    /// Attenuation function.
-    #[serde(serialize_with = "values::ser::attenuation")]
-    pub attenuation: Attenuation,
-    /// Marking strategy.
-    pub marking: Marking,
-    /// Which clusters get lists, each a run of every method.
-    #[serde(serialize_with = "values::ser::one_or_several")]
-    pub clusters: Vec<Clusters>,
-    /// How the light lists are built, each a run of every method.
-    #[serde(serialize_with = "values::ser::one_or_several")]
-    pub assign: Vec<Assign>,
-    /// What decides who is on them, each a run of every method.
-    #[serde(serialize_with = "values::ser::one_or_several")]
-    pub test: Vec<Test>,
-    /// Volume that sizes Displ.
-    pub displaced_volume: DisplacedVolume,
-    /// Output directory.
-    pub out: PathBuf,
-    /// Visible clusters a clustering's buffers hold at first; they grow.
-    pub visible_cluster_capacity: u32,
-    /// Light indices a clustering's buffers hold at first; they grow.
-    pub light_index_capacity: u32,
-    /// Device by name part or index.
-    pub device: Option<String>,
-    /// Validation layers on; any message fails the run.
-    pub validate: bool,
-    /// Shader sources from here instead of from the binary.
-    pub shaders: Option<PathBuf>,
-    /// Which scopes get timestamps.
-    pub scopes: Scopes,
-}
-
-impl Default for Config {
-    /// The default replay: the street in HTC Vive stereo under 1000 lights, by the thesis's six tuned methods.
-    fn default() -> Self {
-        Self {
-            scene: "street".into(),
-            strict: false,
-            recording: "bistro-vive".into(),
-            scenes: Vec::new(),
-            exclude: Vec::new(),
-            methods: tuned_methods(),
-            lights: vec![Lighting::with_count(1000)],
-            lights_file: None,
-            scene_lights: false,
-            resolution: [320, 180],
-            msaa: 1,
-            culling: Culling::Gpu,
-            multiview: false,
-            frames: FrameRange { first: 0, end: None, step: 40 },
-            runs: 2,
-            exr: ExrFrames::List(Vec::new()),
-            exr_layout: ExrLayout::Multipart,
-            trace: ExrFrames::List(Vec::new()),
-            attenuation: Attenuation::PhyRed2,
-            marking: Marking::Depth,
-            clusters: vec![Clusters::Visible],
-            assign: vec![Assign::Brute],
-            test: vec![Test::Auto],
-            displaced_volume: DisplacedVolume::View,
-            out: "out".into(),
-            visible_cluster_capacity: 1 << 14,
-            light_index_capacity: 1 << 20,
-            device: None,
-            validate: false,
-            shaders: None,
-            scopes: Scopes::All,
-        }
-    }
-}
-
-/// Persp 64, Ortho 4 and Displ 64 32, each Indi and Encl (Gelderen chapter 6).
-fn tuned_methods() -> Vec<Method> {
-    let spaces = [
-        Space::Persp { pixels: 64.0 },
-        Space::Ortho { metres: 4.0 },
-        Space::Displ { pixels: 64.0, displacement: 32.0 },
-    ];
-    let both = [Sharing::Indi, Sharing::Encl];
-    spaces.iter().flat_map(|&space| both.map(|sharing| Method::grid(sharing, space))).collect()
-}
-
 impl Config {
     /// The defaults, under the file if one is given, under the flags.
     ///
@@ -271,39 +145,13 @@ impl Config {
     /// # Errors
     /// Names the first field at fault.
     pub fn check(&self) -> Result<()> {
-        let at = |field: &'static str| move |message: String| Error::Input(format!("{field}: {message}"));
-        values::check_text(self.scene.clone()).map_err(at("scene"))?;
-        values::check_text(self.recording.clone()).map_err(at("recording"))?;
-        for entry in &self.scenes {
-            entry.clone().check().map_err(at("scenes"))?;
-        }
-        for rule in &self.exclude {
-            rule.check().map_err(at("exclude"))?;
-        }
-        values::check_methods(self.methods.clone()).map_err(at("methods"))?;
-        values::check_ways(self.clusters.clone()).map_err(at("clusters"))?;
-        values::check_ways(self.assign.clone()).map_err(at("assign"))?;
-        values::check_ways(self.test.clone()).map_err(at("test"))?;
-        values::check_lights(self.lights.clone()).map_err(at("lights"))?;
-        for lighting in &self.lights {
-            lighting.check().map_err(at("lights"))?;
-        }
+        self.check_values().map_err(Error::Input)?;
         if self.lights_from().is_empty() {
-            return Err(at("lights")("no lighting: give at least one, such as 1000".into()));
+            return Err(Error::input("lights: no lighting: give at least one, such as 1000"));
         }
-        values::check_resolution(self.resolution).map_err(at("resolution"))?;
-        values::check_msaa(self.msaa).map_err(at("msaa"))?;
-        self.frames.check().map_err(at("frames"))?;
         if self.runs == 0 && !self.trace.is_empty() {
-            return Err(at("trace")("there is no temporal run to trace: set runs to 1 or more".into()));
+            return Err(Error::input("trace: there is no temporal run to trace: set runs to 1 or more"));
         }
-        values::check_path(&self.out).map_err(at("out"))?;
-        values::check_capacity(self.visible_cluster_capacity).map_err(at("visible_cluster_capacity"))?;
-        values::check_capacity(self.light_index_capacity).map_err(at("light_index_capacity"))?;
-        for (field, path) in [("lights_file", &self.lights_file), ("shaders", &self.shaders)] {
-            path.as_deref().map_or(Ok(()), values::check_path).map_err(at(field))?;
-        }
-        self.device.clone().map_or(Ok(String::new()), values::check_text).map_err(at("device"))?;
         Ok(())
     }
 

@@ -35,27 +35,31 @@ impl TryFrom<RawSceneEntry> for SceneEntry {
 
     fn try_from(raw: RawSceneEntry) -> Result<Self, String> {
         let RawSceneEntry { scene, recording, resolution, frames } = raw;
-        Self { scene, recording, resolution, frames }.check()
+        values::passed(Self { scene, recording, resolution, frames }, Self::check)
     }
 }
 
 impl SceneEntry {
     /// Refuses names that name nothing and values out of range.
-    pub(super) fn check(self) -> Result<Self, String> {
-        values::check_text(self.scene.clone()).map_err(|message| format!("scene: {message}"))?;
-        values::check_text(self.recording.clone()).map_err(|message| format!("recording: {message}"))?;
-        self.resolution.map_or(Ok([1, 1]), values::check_resolution)?;
-        self.frames.map_or(Ok(()), |frames| frames.check().map(drop))?;
-        Ok(self)
+    fn check(&self) -> Result<(), String> {
+        values::check_text(&self.scene).map_err(|message| format!("scene: {message}"))?;
+        values::check_text(&self.recording).map_err(|message| format!("recording: {message}"))?;
+        self.resolution.as_ref().map_or(Ok(()), values::check_resolution)?;
+        self.frames.as_ref().map_or(Ok(()), FrameRange::check)
     }
 }
 
 /// Refuses an empty list of scenes.
-pub(super) fn check_given(scenes: Vec<SceneEntry>) -> Result<Vec<SceneEntry>, String> {
+pub(super) fn check_given(scenes: &[SceneEntry]) -> Result<(), String> {
     if scenes.is_empty() {
         return Err("no scene: give at least one with its recording, or leave the field out".into());
     }
-    Ok(scenes)
+    Ok(())
+}
+
+/// Refuses scenes with names that name nothing or values out of range.
+pub(super) fn check_all(scenes: &[SceneEntry]) -> Result<(), String> {
+    scenes.iter().try_for_each(SceneEntry::check)
 }
 
 impl fmt::Display for SceneEntry {
@@ -89,7 +93,7 @@ impl FromStr for SceneEntry {
                 _ => return Err(wrong()),
             }
         }
-        entry.check()
+        values::passed(entry, Self::check)
     }
 }
 

@@ -1,6 +1,8 @@
 //! Configurations: from text to values and back.
 
 use super::*;
+use crate::methods::Method;
+use std::path::PathBuf;
 
 /// The message for a configuration file with this text, without the file's name, which it must begin with.
 fn refusal(text: &str) -> String {

@@ -6,6 +6,7 @@ use crate::lights::Attenuation;
 use crate::methods::Method;
 use serde::de::{Error as _, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serializer};
+use std::borrow::Borrow;
 use std::fmt;
 use std::marker::PhantomData;
 use std::path::Path;
@@ -13,6 +14,17 @@ use std::str::FromStr;
 
 /// Widest and highest view, pixels.
 pub(super) const MAX_RESOLUTION: u32 = 16384;
+
+/// The value, where `check` lets it pass.
+pub(super) fn passed<T, U: ?Sized>(
+    value: T,
+    check: impl FnOnce(&U) -> Result<(), String>,
+) -> Result<T, String>
+where
+    T: Borrow<U>,
+{
+    check(value.borrow()).map(|()| value)
+}
 
 /// Reads a method's name.
 pub(super) fn method(text: &str) -> Result<Method, String> {
@@ -29,69 +41,65 @@ pub fn resolution(text: &str) -> Result<[u32; 2], String> {
     let wrong = || format!("`{text}` is no resolution such as 1280x720");
     let (width, height) = text.split_once('x').ok_or_else(wrong)?;
     let number = |part: &str| part.parse::<u32>().map_err(|_| wrong());
-    check_resolution([number(width)?, number(height)?])
+    passed([number(width)?, number(height)?], check_resolution)
 }
 
 /// Refuses views without pixels and larger than any device renders.
-pub(super) fn check_resolution(resolution: [u32; 2]) -> Result<[u32; 2], String> {
-    if resolution.iter().all(|side| (1..=MAX_RESOLUTION).contains(side)) {
-        return Ok(resolution);
+pub(super) fn check_resolution([width, height]: &[u32; 2]) -> Result<(), String> {
+    if [width, height].iter().all(|side| (1..=MAX_RESOLUTION).contains(*side)) {
+        return Ok(());
     }
-    let [width, height] = resolution;
     Err(format!("{width}x{height} pixels: each side is from 1 to {MAX_RESOLUTION}"))
 }
 
 /// Reads a number of samples a pixel.
 pub(super) fn msaa(text: &str) -> Result<u32, String> {
-    check_msaa(text.parse().map_err(|_| format!("`{text}` is neither 1 nor 4"))?)
+    passed(text.parse().map_err(|_| format!("`{text}` is neither 1 nor 4"))?, check_msaa)
 }
 
 /// Refuses sample counts other than 1 and 4.
-pub(super) fn check_msaa(samples: u32) -> Result<u32, String> {
-    if matches!(samples, 1 | 4) {
-        Ok(samples)
-    } else {
-        Err(format!("{samples} samples a pixel: only 1 or 4"))
-    }
+pub(super) fn check_msaa(samples: &u32) -> Result<(), String> {
+    if matches!(samples, 1 | 4) { Ok(()) } else { Err(format!("{samples} samples a pixel: only 1 or 4")) }
 }
 
 /// Refuses buffers that hold nothing.
-pub(super) fn check_capacity(capacity: u32) -> Result<u32, String> {
-    if capacity > 0 { Ok(capacity) } else { Err("a capacity of 0: it is at least 1".into()) }
+pub(super) fn check_capacity(capacity: &u32) -> Result<(), String> {
+    if *capacity > 0 { Ok(()) } else { Err("a capacity of 0: it is at least 1".into()) }
 }
 
 /// Reads a buffer capacity.
 pub(super) fn capacity(text: &str) -> Result<u32, String> {
-    check_capacity(text.parse().map_err(|_| format!("`{text}` is no whole number from 1 to {}", u32::MAX))?)
+    let wrong = || format!("`{text}` is no whole number from 1 to {}", u32::MAX);
+    passed(text.parse().map_err(|_| wrong())?, check_capacity)
 }
 
 /// Refuses an empty list of methods and one that names a method twice.
-pub(super) fn check_methods(methods: Vec<Method>) -> Result<Vec<Method>, String> {
+pub(super) fn check_methods(methods: &[Method]) -> Result<(), String> {
     if methods.is_empty() {
         return Err("no method: name at least one, such as indi-persp-64".into());
     }
-    match first_twin(&methods) {
+    match first_twin(methods) {
         Some(twin) => Err(format!("method {twin} is named twice")),
-        None => Ok(methods),
+        None => Ok(()),
     }
 }
 
-/// Refuses a lighting that is given twice.
-pub(super) fn check_lights(lights: Vec<Lighting>) -> Result<Vec<Lighting>, String> {
-    match first_twin(&lights) {
+/// Refuses a lighting that is given twice or has values out of range.
+pub(super) fn check_lights(lights: &[Lighting]) -> Result<(), String> {
+    match first_twin(lights) {
         Some(twin) => Err(format!("lights {twin} are given twice")),
-        None => Ok(lights),
+        None => lights.iter().try_for_each(|lighting| lighting.check().map(drop)),
     }
 }
 
 /// Refuses an empty list of ways or tests, and one that names one twice.
-pub(super) fn check_ways<T: PartialEq + fmt::Display>(ways: Vec<T>) -> Result<Vec<T>, String> {
+pub(super) fn check_ways<T: PartialEq + fmt::Display>(ways: &[T]) -> Result<(), String> {
     if ways.is_empty() {
         return Err("an empty list: name at least one".into());
     }
-    match first_twin(&ways) {
+    match first_twin(ways) {
         Some(twin) => Err(format!("{twin} is named twice")),
-        None => Ok(ways),
+        None => Ok(()),
     }
 }
 
@@ -100,8 +108,8 @@ fn first_twin<T: PartialEq>(items: &[T]) -> Option<&T> {
 }
 
 /// Refuses text that names nothing.
-pub(super) fn check_text(text: String) -> Result<String, String> {
-    if text.trim().is_empty() { Err("empty: it must name something".into()) } else { Ok(text) }
+pub(super) fn check_text(text: &str) -> Result<(), String> {
+    if text.trim().is_empty() { Err("empty: it must name something".into()) } else { Ok(()) }
 }
 
 /// Refuses a path that names nothing, or is no text.
@@ -165,16 +173,16 @@ impl<'de, T: FromStr<Err = String>> Visitor<'de> for NamesVisitor<T> {
     }
 }
 
-/// Deserializes an optional field and passes it through its check.
-fn checked<'de, D, T, U>(
+/// Deserializes an optional field and makes a value of it.
+fn made<'de, D, T, U>(
     deserializer: D,
-    check: impl FnOnce(T) -> Result<U, String>,
+    make: impl FnOnce(T) -> Result<U, String>,
 ) -> Result<Option<U>, D::Error>
 where
     D: Deserializer<'de>,
     T: Deserialize<'de>,
 {
-    Option::<T>::deserialize(deserializer)?.map(check).transpose().map_err(D::Error::custom)
+    Option::<T>::deserialize(deserializer)?.map(make).transpose().map_err(D::Error::custom)
 }
 
 /// The checks above as serde calls them, one a kind of field.
@@ -182,11 +190,12 @@ pub(super) mod de {
     use super::*;
 
     pub fn text<'de, D: Deserializer<'de>>(d: D) -> Result<Option<String>, D::Error> {
-        checked(d, check_text)
+        made(d, |text| passed(text, check_text))
     }
 
     pub fn methods<'de, D: Deserializer<'de>>(d: D) -> Result<Option<Vec<Method>>, D::Error> {
-        checked(d, |list: Vec<MethodText>| check_methods(list.into_iter().map(|method| method.0).collect()))
+        let names = |list: Vec<MethodText>| list.into_iter().map(|method| method.0).collect();
+        made(d, |list| passed(names(list), check_methods))
     }
 
     pub fn ways<'de, D, T>(d: D) -> Result<Option<Vec<T>>, D::Error>
@@ -194,31 +203,31 @@ pub(super) mod de {
         D: Deserializer<'de>,
         T: FromStr<Err = String> + PartialEq + fmt::Display,
     {
-        checked(d, |OneOrSeveral(ways): OneOrSeveral<T>| check_ways(ways))
+        made(d, |OneOrSeveral(ways): OneOrSeveral<T>| passed(ways, check_ways))
     }
 
     pub fn lights<'de, D: Deserializer<'de>>(d: D) -> Result<Option<Vec<Lighting>>, D::Error> {
-        checked(d, check_lights)
+        made(d, |lights| passed(lights, check_lights))
     }
 
     pub fn scenes<'de, D: Deserializer<'de>>(d: D) -> Result<Option<Vec<SceneEntry>>, D::Error> {
-        checked(d, scenes::check_given)
+        made(d, |scenes| passed(scenes, scenes::check_given))
     }
 
     pub fn resolution<'de, D: Deserializer<'de>>(d: D) -> Result<Option<[u32; 2]>, D::Error> {
-        checked(d, check_resolution)
+        made(d, |resolution| passed(resolution, check_resolution))
     }
 
     pub fn msaa<'de, D: Deserializer<'de>>(d: D) -> Result<Option<u32>, D::Error> {
-        checked(d, check_msaa)
+        made(d, |samples| passed(samples, check_msaa))
     }
 
     pub fn capacity<'de, D: Deserializer<'de>>(d: D) -> Result<Option<u32>, D::Error> {
-        checked(d, check_capacity)
+        made(d, |capacity| passed(capacity, check_capacity))
     }
 
     pub fn attenuation<'de, D: Deserializer<'de>>(d: D) -> Result<Option<Attenuation>, D::Error> {
-        checked(d, |name: String| name.parse())
+        made(d, |name: String| name.parse())
     }
 }
 

@@ -68,7 +68,7 @@ fn keep_newest(mut found: Vec<Found>) -> Result<(Vec<Found>, Vec<Older>)> {
     let key = |Found { directory, manifest, .. }: &Found| {
         let method = manifest::method(manifest, directory)?;
         // How many views there are follows from the recording.
-        let setting = manifest::setting(manifest, 0, method);
+        let setting = manifest::setting(manifest, 0, method)?;
         let key = (setting, manifest::lights_key(manifest), method.to_string());
         Ok((key, age(directory, &manifest.started)))
     };
@@ -123,7 +123,7 @@ fn read_run(Found { name, directory, manifest: file }: &Found) -> Result<Run> {
     }
     Ok(Run {
         name: name.clone(),
-        setting: manifest::setting(file, views, method),
+        setting: manifest::setting(file, views, method)?,
         method,
         lighting: manifest::lighting(file),
         device: [file.device.name.clone(), file.device.driver.clone(), file.device.api.clone()],

@@ -1,9 +1,9 @@
 //! What a run's results depend on, in one hash.
 
-use crate::config::Config;
+use crate::Result;
+use crate::config::{Bearing, Config};
 use crate::inputs::Inputs;
 use crate::output::{DeviceInfo, RUN_FORMAT, git_revision};
-use crate::{Error, Result};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
@@ -11,10 +11,6 @@ use sha2::{Digest, Sha256};
 pub struct Fingerprint {
     shared: Value,
 }
-
-/// Fields of the configuration that choose what the rest of the fingerprint holds by content, or that results do not
-/// depend on.
-const LEFT_OUT: [&str; 5] = ["out", "device", "shaders", "lights_file", "strict"];
 
 impl Fingerprint {
     /// Takes the content of scene, recording, static lights and shaders, the program, and the device.
@@ -37,11 +33,7 @@ impl Fingerprint {
     /// # Errors
     /// The configuration is not JSON.
     pub fn of(&self, config: &Config) -> Result<String> {
-        let not_json = |error| Error::Internal(format!("the configuration is not JSON: {error}"));
-        let mut config = serde_json::to_value(config).map_err(not_json)?;
-        if let Some(fields) = config.as_object_mut() {
-            fields.retain(|name, _| !LEFT_OUT.contains(&name.as_str()));
-        }
+        let config = config.settings(|bearing| bearing != Bearing::Outside)?;
         let all = json!({ "shared": self.shared, "config": config });
         Ok(sha256(all.to_string().as_bytes()))
     }

@@ -1,9 +1,6 @@
 //! What a report asks of `run.json`.
 
-use crate::assign::Marking;
-use crate::config::Config;
-use crate::geometry::DisplacedVolume;
-use crate::lights::{Attenuation, Lighting};
+use crate::lights::Lighting;
 use crate::methods::Method;
 use crate::output::{MANIFEST, Manifest, Source};
 use crate::report::format::grouped;
@@ -23,28 +20,18 @@ pub fn method(run: &Manifest, directory: &Path) -> Result<Method> {
 }
 
 /// What it shares with runs that are drawn in one figure.
-pub fn setting(run: &Manifest, views: u32, method: Method) -> Setting {
-    Setting {
+pub fn setting(run: &Manifest, views: u32, method: Method) -> Result<Setting> {
+    Ok(Setting {
         scene: run.scene.name.clone(),
         recording: run.recording.name.clone(),
         views,
         resolution: run.config.resolution,
         msaa: run.config.msaa,
-        options: options(&run.config),
+        // The defaults are the thesis's, which go without saying.
+        options: run.config.unusual()?,
         hashes: [run.scene.sha256.clone(), run.recording.sha256.clone()],
         way: Way::new(&run.config, method),
-    }
-}
-
-/// What is not as in the thesis, which goes without saying.
-fn options(config: &Config) -> Vec<String> {
-    let Config { attenuation, marking, displaced_volume, .. } = config;
-    let unusual = [
-        (*attenuation != Attenuation::PhyRed2).then(|| format!("attenuation {attenuation}")),
-        (*marking == Marking::Geometry).then(|| "marking from geometry".to_owned()),
-        (*displaced_volume == DisplacedVolume::Own).then(|| "displaced volume own".to_owned()),
-    ];
-    unusual.into_iter().flatten().collect()
+    })
 }
 
 /// Where its light came from.

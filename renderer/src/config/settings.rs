@@ -1,0 +1,231 @@
+//! The settings of a run, each declared once.
+
+use super::declare::{Bearing, Setting, set, settings};
+use super::values::{self, de, ser};
+use super::{
+    Assign, Exclude, ExrFrames, ExrLayout, FrameRange, SceneEntry, Scopes, Test, exclude, scenes, schema,
+};
+use crate::assign::{Clusters, Marking};
+use crate::culling::Culling;
+use crate::geometry::DisplacedVolume;
+use crate::lights::{Attenuation, Lighting};
+use crate::methods::{KINDS, Method, Sharing, Space};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+settings! {
+    /// Scene: `street`, `temple`, or the path of a .gltf, .glb or .obj file.
+    scene: String = "street".into(), Run {
+        arg(long, value_name = "NAME|PATH")
+        serde(default, deserialize_with = "de::text")
+        schemars(length(min = 1))
+        check(values::check_text)
+    }
+    /// Refuse an OBJ scene, or an MTL file of its, for the first line that would else be a warning.
+    strict: bool = false, Outside {
+        arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")
+    }
+    /// Recording: `bistro`, `suntem`, `bistro-vive`, `bistro-mirror`, `suntem-vive`, or the path of a JSON file.
+    recording: String = "bistro-vive".into(), Run {
+        arg(long, value_name = "NAME|PATH")
+        serde(default, deserialize_with = "de::text")
+        schemars(length(min = 1))
+        check(values::check_text)
+    }
+    /// Several scenes, each with its recording and maybe a resolution and frames of its own, instead of `scene`
+    /// and `recording`; the flag is repeated for several.
+    scenes: Vec<SceneEntry> = Vec::new(), Run {
+        arg(long, value_name = "SCENE=RECORDING[,WxH][,FRAMES]")
+        serde(default, deserialize_with = "de::scenes")
+        schemars(with = "Option<Vec<scenes::RawSceneEntry>>", length(min = 1))
+        write(skip_serializing_if = "Vec::is_empty")
+        check(scenes::check_all)
+    }
+    /// What to leave out of the product of scenes, lightings, methods, ways of assignment and tests, such as
+    /// `recording=*-vive,lights=1000|10000,method=indi-persp-16`; the flag is repeated for several rules.
+    exclude: Vec<Exclude> = Vec::new(), Run {
+        arg(long, value_name = "AXIS=NAME[|NAME],..")
+        write(skip_serializing_if = "Vec::is_empty")
+        check(exclude::check_all)
+    }
+    /// Methods, each a run, by names with sizes.
+    methods: Vec<Method> = tuned_methods(), Run {
+        arg(long = "method", value_name = "METHOD", value_parser = values::method, help = methods_help())
+        serde(default, deserialize_with = "de::methods")
+        schemars(schema_with = "schema::methods")
+        write(serialize_with = "ser::methods")
+        check(values::check_methods)
+    }
+    /// Falling lights: how many, intensity I (100), cut-off I0 (0.5), near radius R0 (0.1 m). Each lighting is
+    /// a run of every method; the flag is repeated for several.
+    lights: Vec<Lighting> = vec![Lighting::with_count(1000)], Run {
+        arg(long, value_name = "N[,I,I0,R0]")
+        serde(default, deserialize_with = "de::lights")
+        schemars(with = "Option<Vec<Lighting>>")
+        check(values::check_lights)
+    }
+    /// Static lights from a CSV file (columns `x,y,z,r,g,b,i,i0,r0` and maybe `r1`) instead of falling ones.
+    lights_file: PathBuf, Outside {
+        arg(long, value_name = "FILE.csv")
+        check(values::check_path)
+    }
+    /// The scene's own point lights (KHR_lights_punctual) instead of falling ones.
+    scene_lights: bool = false, Shown {
+        arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")
+    }
+    /// Width and height of each view, pixels.
+    resolution: [u32; 2] = [320, 180], Shown {
+        arg(long, value_name = "WxH", value_parser = values::resolution)
+        serde(default, deserialize_with = "de::resolution")
+        schemars(schema_with = "schema::resolution")
+        check(values::check_resolution)
+    }
+    /// Samples a pixel, 1 or 4.
+    msaa: u32 = 1, Shown {
+        arg(long, value_name = "1|4", value_parser = values::msaa)
+        serde(default, deserialize_with = "de::msaa")
+        schemars(schema_with = "schema::msaa")
+        check(values::check_msaa)
+    }
+    /// Where instances outside the views are left out; what is seen is the same.
+    culling: Culling = Culling::Gpu, Measures {
+        arg(long, value_enum)
+    }
+    /// Draw all views in one pass: the prepass, and opaque and masked shading where the views share a clustering. What
+    /// is seen is the same.
+    multiview: bool = false, Measures {
+        arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")
+    }
+    /// Frames to render: A..B/STEP leaves B out; also A.., ..B, /STEP, or one number.
+    frames: FrameRange = FrameRange { first: 0, end: None, step: 40 }, Measures {
+        arg(long, value_name = "A..B/STEP")
+        serde(default)
+        schemars(schema_with = "schema::frames")
+        check(FrameRange::check)
+    }
+    /// Temporal runs, in which stages are timed; 0 leaves the counting run alone.
+    runs: u32 = 2, Measures {
+        arg(long, value_name = "N")
+    }
+    /// Frames whose EXR and PNG images are written: numbers with commas between, `all` or `none`.
+    exr: ExrFrames = ExrFrames::List(Vec::new()), Measures {
+        arg(long, value_name = "LIST|all|none")
+        serde(default)
+        schemars(schema_with = "schema::exr")
+    }
+    /// How an EXR image holds several views: as parts, or in one part with channels named by view (`right.R`).
+    exr_layout: ExrLayout = ExrLayout::Multipart, Measures {
+        arg(long, value_enum)
+    }
+    /// Frames of the temporal runs whose CPU and GPU stages go to `trace.json`, for Perfetto or chrome://tracing:
+    /// numbers with commas between, `all` (the flag alone) or `none`.
+    trace: ExrFrames = ExrFrames::List(Vec::new()), Measures {
+        arg(long, value_name = "LIST|all|none", num_args = 0..=1, default_missing_value = "all")
+        serde(default)
+        schemars(schema_with = "schema::exr")
+    }
+    /// How a light fades with distance: phy, red, smo, phy_red_1, phy_red_2, phy_smo_1, phy_smo_2, lin or stp.
+    attenuation: Attenuation = Attenuation::PhyRed2, Counts {
+        arg(long, value_name = "NAME")
+        serde(default, deserialize_with = "de::attenuation")
+        schemars(schema_with = "schema::attenuation")
+        write(serialize_with = "ser::attenuation")
+    }
+    /// What the visible clusters of opaque and masked geometry are marked from.
+    marking: Marking = Marking::Depth, Counts {
+        arg(long, value_enum)
+        told("marking from")
+    }
+    /// Which clusters get light lists: `visible` (those that hold a fragment, which marking finds) or `all` of the grid, with
+    /// nothing marked. Of several, with commas between, each is a run of every method.
+    clusters: Vec<Clusters> = vec![Clusters::Visible], Run {
+        arg(long, value_enum, value_name = "LIST", value_delimiter = ',')
+        serde(default, deserialize_with = "de::ways")
+        schemars(schema_with = "schema::clusters")
+        write(serialize_with = "ser::one_or_several")
+        check(values::check_ways)
+    }
+    /// How the light lists are built; every way gives the same ones. Of several, with commas between, each is a run of
+    /// every method.
+    assign: Vec<Assign> = vec![Assign::Brute], Run {
+        arg(long, value_enum, value_name = "LIST", value_delimiter = ',')
+        serde(default, deserialize_with = "de::ways")
+        schemars(schema_with = "schema::assign")
+        write(serialize_with = "ser::one_or_several")
+        check(values::check_ways)
+    }
+    /// What decides whether a light meets a cluster: `hs` (half spaces), `sat-` with letters (no separating axis among
+    /// e: edges, n: to the nearest vertex, p: normals, v: to all vertices), `hs+sat-n` and the like, `exact`, `box`
+    /// (orthographic clusters only), or `auto`: hs in perspective grids, box in orthographic ones. Of several, with
+    /// commas between, each is a run of every method.
+    test: Vec<Test> = vec![Test::Auto], Run {
+        arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::test)
+        serde(default, deserialize_with = "de::ways")
+        schemars(schema_with = "schema::test")
+        write(serialize_with = "ser::one_or_several")
+        check(values::check_ways)
+    }
+    /// Which frustum sizes the clusters of Displ.
+    displaced_volume: DisplacedVolume = DisplacedVolume::View, Counts {
+        arg(long, value_enum)
+    }
+    /// Output directory.
+    out: PathBuf = "out".into(), Outside {
+        arg(long, value_name = "DIR")
+        schemars(length(min = 1))
+        check(values::check_path)
+    }
+    /// Visible clusters that a clustering's buffers hold at first; they grow where a frame needs more.
+    visible_cluster_capacity: u32 = 1 << 14, Measures {
+        arg(long, value_name = "N", value_parser = values::capacity)
+        serde(default, deserialize_with = "de::capacity")
+        schemars(range(min = 1))
+        check(values::check_capacity)
+    }
+    /// Light indices that a clustering's buffers hold at first; they grow where a frame needs more.
+    light_index_capacity: u32 = 1 << 20, Measures {
+        arg(long, value_name = "N", value_parser = values::capacity)
+        serde(default, deserialize_with = "de::capacity")
+        schemars(range(min = 1))
+        check(values::check_capacity)
+    }
+    /// Device, by a part of its name or by its index in `manylight devices`.
+    device: String, Outside {
+        arg(long, value_name = "NAME|INDEX")
+        serde(default, deserialize_with = "de::text")
+        schemars(length(min = 1))
+        check(values::check_text)
+    }
+    /// Turn the validation layers on, with synchronization validation; any message fails the run.
+    validate: bool = false, Measures {
+        arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")
+    }
+    /// Read the shader sources from this directory instead of from the program.
+    shaders: PathBuf, Outside {
+        arg(long, value_name = "DIR")
+        check(values::check_path)
+    }
+    /// Which stages are timed: all, or the frame as a whole, which shows what timing itself costs.
+    scopes: Scopes = Scopes::All, Measures {
+        arg(long, value_enum)
+    }
+}
+
+/// Every kind of method, a line each.
+fn methods_help() -> String {
+    let lines = KINDS.iter().map(|kind| format!("  {}: {}", kind.pattern(), kind.about));
+    let head = "Methods, each a run; the flag is repeated for several. Sizes are numbers above 0:".to_owned();
+    [head].into_iter().chain(lines).collect::<Vec<_>>().join("\n")
+}
+
+/// Persp 64, Ortho 4 and Displ 64 32, each Indi and Encl (Gelderen chapter 6).
+fn tuned_methods() -> Vec<Method> {
+    let spaces = [
+        Space::Persp { pixels: 64.0 },
+        Space::Ortho { metres: 4.0 },
+        Space::Displ { pixels: 64.0, displacement: 32.0 },
+    ];
+    let both = [Sharing::Indi, Sharing::Encl];
+    spaces.iter().flat_map(|&space| both.map(|sharing| Method::grid(sharing, space))).collect()
+}
