@@ -6,8 +6,8 @@
 //! else the first there is, and claims that others bear on have theirs beside it.
 
 use super::results::{ResultSet, Run};
-use super::stats;
 use super::way::Way;
+use crate::stats;
 use serde::Serialize;
 
 /// What the data say of a claim.

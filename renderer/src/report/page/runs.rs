@@ -3,7 +3,7 @@
 use super::text;
 use crate::report::format::{readable, significant};
 use crate::report::results::{ResultSet, Run, method_name};
-use crate::report::stats::Statistics;
+use crate::stats::Statistics;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 

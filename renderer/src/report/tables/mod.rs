@@ -4,7 +4,7 @@ mod stereo;
 mod tests_of_lights;
 
 use super::results::{Run, metric};
-use super::stats;
+use crate::stats;
 use std::io::{self, Write};
 
 /// A table of numbers under grouped headings.

@@ -2,7 +2,7 @@
 
 use crate::report::claim::{Findings, mean, milliseconds, number};
 use crate::report::results::{ResultSet, Run, Setting, TUNED, indi, lightings, method_name, metric};
-use crate::report::stats::{Statistics, slope};
+use crate::stats::{Statistics, slope};
 
 pub(super) fn steadiness(set: &ResultSet) -> Findings {
     let mut findings = Findings::default();
