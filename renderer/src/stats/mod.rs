@@ -55,3 +55,4 @@ pub use measured::{Basis, Measured};
 pub use noise::{Halves, Interval, LEVEL, Noise};
 pub use sample::{Statistics, mean, slope};
 pub use samples::Samples;
+pub use splits::{Split, splits};

@@ -46,6 +46,11 @@ impl Interval {
         Self { low: value - half, high: value + half }
     }
 
+    /// The ends of an interval that may not be there.
+    pub fn ends(interval: Option<Self>) -> [Option<f64>; 2] {
+        [interval.map(|interval| interval.low), interval.map(|interval| interval.high)]
+    }
+
     /// Half its width.
     pub fn half(&self) -> f64 {
         (self.high - self.low) / 2.0

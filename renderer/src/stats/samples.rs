@@ -59,7 +59,8 @@ impl Samples {
         frames.iter().sum::<f64>() / self.frames as f64
     }
 
-    fn minima_over(&self, chosen: &[usize]) -> Vec<f64> {
+    /// The same as [`Self::minima`] over some of the runs, by their numbers.
+    pub fn minima_over(&self, chosen: &[usize]) -> Vec<f64> {
         let Some((first, others)) = chosen.split_first() else { return vec![] };
         let mut least = self.runs[*first].clone();
         for run in others {

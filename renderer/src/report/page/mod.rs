@@ -13,12 +13,13 @@ use super::format::readable;
 use super::paper::{PAPERS, Section};
 use super::results::ResultSet;
 use super::tables::Table;
+use crate::output::with_interval;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// How numbers come to be: name and explanation.
-const METHOD_NOTES: [(&str, &str); 7] = [
+const METHOD_NOTES: [(&str, &str); 8] = [
     (
         "Times",
         "GPU time of each stage from timestamp queries around it. Every stage of every frame is timed in each temporal run; \
@@ -47,6 +48,12 @@ const METHOD_NOTES: [(&str, &str); 7] = [
         "Of runs during which other processes took the CPUs (where those are the device, more than 5 % of them), a governor \
          or a performance level chose lower clocks, power or heat held them back, or clocks differed between temporal runs. \
          The machine is asked before and after each temporal run, never within one.",
+    ),
+    (
+        "Intervals",
+        "± is half the 95 % interval of the noise of measuring: the spread of the same number over halves of the temporal runs, \
+         paired by frame and run for ratios and for the margins of claims, whose distance to their bound is undecided where \
+         the interval straddles it. Of one run, it is that of its frames in blocks.",
     ),
     (
         "Statistics",
@@ -256,6 +263,7 @@ fn sign(verdict: Verdict) -> (&'static str, &'static str) {
     match verdict {
         Verdict::Holds => ("holds", "✓"),
         Verdict::DoesNotHold => ("fails", "✗"),
+        Verdict::Undecided => ("open", "?"),
         Verdict::NotEnoughData => ("open", "–"),
     }
 }
@@ -283,7 +291,7 @@ fn evidence(body: &mut String, evidence: &[Evidence]) {
             setting = &item.setting;
             let _ = writeln!(body, "<tr><th colspan=\"3\">{}</th></tr>", text(setting));
         }
-        let numbers: Vec<String> = item
+        let mut numbers: Vec<String> = item
             .numbers
             .iter()
             .map(|number| {
@@ -295,7 +303,16 @@ fn evidence(body: &mut String, evidence: &[Evidence]) {
                 )
             })
             .collect();
-        let (class, sign) = if item.holds { ("holds", "✓ holds") } else { ("fails", "✗ fails") };
+        let (class, sign) = match (item.decided, item.holds) {
+            (false, _) => ("open", "? undecided"),
+            (true, true) => ("holds", "✓ holds"),
+            (true, false) => ("fails", "✗ fails"),
+        };
+        let margin = item.interval.map(|interval| {
+            let shown = with_interval(item.margin, Some(interval), [0, 3]);
+            format!("<span><em>margin</em> {shown}</span>")
+        });
+        numbers.extend(margin);
         let _ = writeln!(
             body,
             "<tr><td>{}</td><td class=\"numbers\">{}</td><td class=\"verdict {class}\">{sign}</td></tr>",
