@@ -1,21 +1,48 @@
-//! Comparing two result sets: the regression check of anyone who changes a shader.
+//! Comparing result sets: the regression check of anyone who changes a shader.
 //!
 //! Runs are joined by what they were asked to do, not by where they lie. Counters are compared exactly, frame by
-//! frame. Times are compared as ratios of minima over the temporal runs, and a difference counts only where it
-//! exceeds the noise that those runs show among themselves (see [`TimeComparison::noise`]).
+//! frame. Times are compared as ratios of minima over the temporal runs, with the noise that those runs show
+//! ([`crate::stats`]), and judged together ([`verdict`]).
+//!
+//! ```text
+//! A ─┬─ join ──> runs ──> counters (exact), times ──> verdicts ──┬──> table, Markdown, JSON, page
+//! B ─┘                                                           └──> exit code
+//! ```
 
 mod join;
+mod markdown;
+mod page;
 mod read;
 mod table;
 mod times;
+mod verdict;
 
 #[cfg(test)]
 mod tests;
 
+pub use markdown::Markdown;
+pub use page::write_page;
+pub use verdict::{Tally, Verdict};
+
 use crate::Result;
 use crate::output::Older;
+use crate::stats::{Interval, Noise};
 use serde::Serialize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// Result sets, each compared with the first.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Comparisons {
+    /// A ratio of times matters that differs from 1 by more than so many percent.
+    pub threshold_percent: f64,
+    /// Verdicts over all sets, runs and stages.
+    pub verdicts: Tally,
+    /// The second set against the first.
+    #[serde(flatten)]
+    pub first: Comparison,
+    /// Any further set against the first.
+    pub further: Vec<Comparison>,
+}
 
 /// Two result sets, side by side.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -88,6 +115,8 @@ pub struct CounterComparison {
 pub struct TimeComparison {
     /// Path in the stage tree without the numbers of views and clusterings.
     pub stage: String,
+    /// How many temporal runs are compared: as many as the side with fewer has.
+    pub runs: usize,
     /// Milliseconds a frame: the mean over frames of the minimum over runs.
     pub a_ms: f64,
     /// Milliseconds a frame: the mean over frames of the minimum over runs.
@@ -96,16 +125,17 @@ pub struct TimeComparison {
     pub ratio: f64,
     /// The same of single frames.
     pub over_frames: Spread,
-    /// How far the runs of one set lie apart: the longest run's total of the stage over the shortest one's, minus 1.
+    /// How far the runs of one set lie apart: the longest run's mean of the stage over the shortest one's, minus 1.
     pub spread_over_runs_a: Option<f64>,
     /// The same of B.
     pub spread_over_runs_b: Option<f64>,
-    /// The largest factor, minus 1, that noise explains: (1 + spread of A) (1 + spread of B) - 1. A run's total
-    /// varies more than the minima do that ratios are made of, so this is on the safe side. `None` where a
-    /// set has fewer than two temporal runs.
-    pub noise: Option<f64>,
-    /// Whether the ratio or its inverse exceeds 1 + `noise`.
-    pub exceeds_noise: Option<bool>,
+    /// Noise of the ratio's logarithm; `None` for fewer than two temporal runs on a side.
+    #[serde(skip)]
+    noise: Option<Noise>,
+    /// Where the ratio lies, by 95 % intervals that are widened for how many are told; `None` without noise known.
+    pub interval: Option<Interval>,
+    /// What that lets be said.
+    pub verdict: Verdict,
 }
 
 /// Ratios of single frames.
@@ -119,15 +149,69 @@ pub struct Spread {
     pub max: f64,
 }
 
-/// Compares every run under `a` with the run of the same configuration under `b`.
+/// Compares every run under `base` with the run of the same configuration under each of `others`, of which there is at
+/// least one. Ratios of times matter that differ from 1 by more than `threshold_percent`.
 ///
 /// # Errors
 /// A directory that is missing or holds no run, a file that is damaged or no result of this version.
-pub fn compare(a: &Path, b: &Path) -> Result<Comparison> {
-    join::join(a, b)
+pub fn compare(base: &Path, others: &[PathBuf], threshold_percent: f64) -> Result<Comparisons> {
+    let mut all = others.iter().map(|other| join::join(base, other)).collect::<Result<Vec<_>>>()?;
+    let times = all.iter_mut().flat_map(|comparison| &mut comparison.runs).flat_map(|run| &mut run.times);
+    verdict::judge(&mut times.collect::<Vec<_>>(), threshold_percent / 100.0);
+    let verdicts = Tally::of(all.iter().flat_map(Comparison::times).map(|(_, time)| time));
+    if all.is_empty() {
+        return Err(crate::Error::input("nothing to compare with: give two result sets or more"));
+    }
+    let first = all.remove(0);
+    Ok(Comparisons { threshold_percent, verdicts, first, further: all })
+}
+
+impl Comparisons {
+    /// Each further set against the first.
+    pub fn all(&self) -> impl Iterator<Item = &Comparison> {
+        std::iter::once(&self.first).chain(&self.further)
+    }
+
+    /// What is not equal, as one line; `None` where every counter of every run and frame is.
+    pub fn difference(&self) -> Option<String> {
+        let several = !self.further.is_empty();
+        let of = |comparison: &Comparison| {
+            let difference = comparison.difference()?;
+            Some(if several { format!("{}: {difference}", comparison.b.directory) } else { difference })
+        };
+        let differences: Vec<String> = self.all().filter_map(of).collect();
+        (!differences.is_empty()).then(|| differences.join("; "))
+    }
+
+    /// What became slower by more than so many percent, as one line: its whole interval lies beyond.
+    pub fn slower_than(&self, percent: f64) -> Option<String> {
+        let beyond = |time: &TimeComparison| {
+            time.interval
+                .filter(|interval| interval.low > 1.0 + percent / 100.0 && time.verdict == Verdict::Slower)
+        };
+        let times = self.all().flat_map(Comparison::times);
+        let mut slower = times.filter_map(|(run, time)| Some((run, time, beyond(time)?)));
+        let (run, time, Interval { low, high }) = slower.next()?;
+        let more = match slower.count() {
+            0 => String::new(),
+            more => format!(" (and {more} more)"),
+        };
+        Some(format!(
+            "slower by more than {percent} %: {} of {}, by {:.1} to {:.1} %{more}",
+            time.stage,
+            run.run,
+            100.0 * (low - 1.0),
+            100.0 * (high - 1.0),
+        ))
+    }
 }
 
 impl Comparison {
+    /// Every time of every run.
+    pub fn times(&self) -> impl Iterator<Item = (&RunComparison, &TimeComparison)> {
+        self.runs.iter().flat_map(|run| run.times.iter().map(move |time| (run, time)))
+    }
+
     /// What is not equal, as one line; `None` where every counter of every run and frame is.
     pub fn difference(&self) -> Option<String> {
         let counters = self.runs.iter().filter(|run| run.counters.iter().any(CounterComparison::differs));

@@ -35,6 +35,8 @@ mod testing;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use page::{document, text};
+
 pub use claim::{ByWay, Claim, Evidence, Number, Verdict};
 
 use crate::output::{Older, write_whole};

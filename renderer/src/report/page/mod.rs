@@ -107,7 +107,8 @@ fn sections() -> impl Iterator<Item = &'static Section> {
     PAPERS.iter().flat_map(|paper| paper.sections)
 }
 
-fn document(body: &str, data: &str) -> String {
+/// The page around a body, with its styles and scripts; `data` is JSON of the numbers of figures.
+pub(crate) fn document(body: &str, data: &str) -> String {
     format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n\
@@ -130,7 +131,7 @@ fn numbers(figures: &[Figure]) -> String {
 }
 
 /// HTML of a text.
-fn text(plain: &str) -> String {
+pub(crate) fn text(plain: &str) -> String {
     super::chart::escape(plain)
 }
 
