@@ -1,7 +1,7 @@
 //! `manylight compare`.
 
 use super::Console;
-use crate::compare::{Markdown, compare, write_page};
+use crate::compare::{Markdown, Options, compare, write_page};
 use crate::output::prepare_file;
 use crate::{Error, Result};
 use std::path::PathBuf;
@@ -32,6 +32,11 @@ pub struct Args {
     /// Write the comparison as a page that opens offline.
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
+
+    /// Write pictures of what differs between rendered frames: how different colours look (FLIP), and which pixels differ
+    /// in lights, fragments or clusters.
+    #[arg(long, value_name = "DIR")]
+    pictures: Option<PathBuf>,
 }
 
 /// Prints the comparison; differing counters, frames or runs are an error, and so is what is slower than is allowed.
@@ -39,7 +44,8 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     if let Some(page) = &args.html {
         prepare_file(page)?;
     }
-    let comparisons = compare(&args.base, &args.others, args.threshold)?;
+    let options = Options { threshold_percent: args.threshold, pictures: args.pictures.clone() };
+    let comparisons = compare(&args.base, &args.others, &options)?;
     if let Some(page) = &args.html {
         write_page(page, &comparisons)?;
     }

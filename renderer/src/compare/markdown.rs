@@ -49,6 +49,11 @@ fn section(f: &mut fmt::Formatter<'_>, comparison: &Comparison) -> fmt::Result {
             )?;
         }
     }
+    for run in &comparison.runs {
+        for image in run.images.iter().filter(|image| image.differs()) {
+            writeln!(f, "- {}: image {}", cell(&run.run), cell(&image.to_string()))?;
+        }
+    }
     let told = |verdict: Verdict| matches!(verdict, Verdict::Faster | Verdict::Slower);
     let mut rows =
         comparison.times().filter(|(_, time)| told(time.verdict) || time.stage == "frame").peekable();

@@ -6,9 +6,11 @@
 //!
 //! ```text
 //! A ─┬─ join ──> runs ──> counters (exact), times ──> verdicts ──┬──> table, Markdown, JSON, page
-//! B ─┘                                                           └──> exit code
+//! B ─┘                  images (channels, FLIP)                  └──> exit code
 //! ```
 
+mod flip;
+mod images;
 mod join;
 mod markdown;
 mod page;
@@ -20,6 +22,7 @@ mod verdict;
 #[cfg(test)]
 mod tests;
 
+pub use images::{ChannelComparison, Flip, ImageComparison};
 pub use markdown::Markdown;
 pub use page::write_page;
 pub use verdict::{Tally, Verdict};
@@ -89,6 +92,8 @@ pub struct RunComparison {
     pub counters: Vec<CounterComparison>,
     /// A row a stage; empty where either side has no temporal runs.
     pub times: Vec<TimeComparison>,
+    /// Layers of frames that both rendered to files.
+    pub images: Vec<ImageComparison>,
 }
 
 /// One counter over the frames that both sets have.
@@ -149,13 +154,29 @@ pub struct Spread {
     pub max: f64,
 }
 
+/// How sets are compared.
+#[derive(Debug, Clone, Default)]
+pub struct Options {
+    /// A ratio of times matters that differs from 1 by more than so many percent.
+    pub threshold_percent: f64,
+    /// Where pictures of differences of images go: a directory a run below it, of several sets below their numbers.
+    pub pictures: Option<PathBuf>,
+}
+
 /// Compares every run under `base` with the run of the same configuration under each of `others`, of which there is at
-/// least one. Ratios of times matter that differ from 1 by more than `threshold_percent`.
+/// least one.
 ///
 /// # Errors
-/// A directory that is missing or holds no run, a file that is damaged or no result of this version.
-pub fn compare(base: &Path, others: &[PathBuf], threshold_percent: f64) -> Result<Comparisons> {
-    let mut all = others.iter().map(|other| join::join(base, other)).collect::<Result<Vec<_>>>()?;
+/// A directory that is missing or holds no run, a file that is damaged or no result of this version, a picture that
+/// cannot be written.
+pub fn compare(base: &Path, others: &[PathBuf], options: &Options) -> Result<Comparisons> {
+    let threshold_percent = options.threshold_percent;
+    let pictures = |place: usize| match others.len() {
+        1 => options.pictures.clone(),
+        _ => options.pictures.as_ref().map(|out| out.join((place + 2).to_string())),
+    };
+    let join = |(place, other): (usize, &PathBuf)| join::join(base, other, pictures(place).as_deref());
+    let mut all = others.iter().enumerate().map(join).collect::<Result<Vec<_>>>()?;
     let times = all.iter_mut().flat_map(|comparison| &mut comparison.runs).flat_map(|run| &mut run.times);
     verdict::judge(&mut times.collect::<Vec<_>>(), threshold_percent / 100.0);
     let verdicts = Tally::of(all.iter().flat_map(Comparison::times).map(|(_, time)| time));
@@ -219,8 +240,10 @@ impl Comparison {
             .runs
             .iter()
             .filter(|run| !run.frames_missing_in_a.is_empty() || !run.frames_missing_in_b.is_empty());
+        let pixels = self.runs.iter().filter(|run| run.images.iter().any(ImageComparison::integers_differ));
         let faults = [
             (counters.count(), "with counters that differ"),
+            (pixels.count(), "with images whose integers differ"),
             (frames.count(), "with frames that only one side has"),
             (self.missing_in_a.len(), "missing in A"),
             (self.missing_in_b.len(), "missing in B"),

@@ -65,6 +65,18 @@ fn rows(body: &mut String, run: &RunComparison) {
         let verdict = format!("differs in {} of {} frames", counter.frames_differing, run.frames);
         row(body, [&counter.metric, &a, &b, &ratio, "", &verdict], "fails");
     }
+    for image in &run.images {
+        let (class, what) = match (image.integers_differ(), image.differs()) {
+            (true, _) => ("fails", image.to_string()),
+            (false, true) => ("open", image.to_string()),
+            (false, false) => ("holds", format!("{} {}: equal", image.file, image.layer)),
+        };
+        let _ = writeln!(
+            body,
+            "<tr><td class=\"lighting {class}\" colspan=\"6\">image {}</td></tr>",
+            text(&what)
+        );
+    }
     for time in &run.times {
         let TimeComparison { stage, a_ms, b_ms, ratio, verdict, .. } = time;
         let class = match verdict {

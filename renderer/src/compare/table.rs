@@ -68,6 +68,11 @@ fn display_run(f: &mut fmt::Formatter<'_>, run: &RunComparison) -> fmt::Result {
     if differing.is_empty() {
         writeln!(f, "  counters: all {} equal in {} frames", run.counters.len(), run.frames)?;
     }
+    let (other, same): (Vec<_>, Vec<_>) = run.images.iter().partition(|image| image.differs());
+    other.iter().try_for_each(|image| writeln!(f, "  image {image}"))?;
+    if !same.is_empty() {
+        writeln!(f, "  images: {} layers equal in every channel", same.len())?;
+    }
     if run.times.is_empty() {
         writeln!(f, "  times: not on both sides")?;
     }

@@ -1,10 +1,16 @@
-use super::{Comparison, Comparisons, CounterComparison, Markdown, Result, Spread, Verdict, write_page};
+use super::{
+    Comparison, Comparisons, CounterComparison, Markdown, Options, Result, Spread, Verdict, write_page,
+};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The one comparison of two sets, by the usual threshold.
 fn compare(a: &Path, b: &Path) -> Result<Comparison> {
-    Ok(super::compare(a, &[b.to_owned()], 1.0)?.first)
+    Ok(compare_all(a, &[b.to_owned()])?.first)
+}
+
+fn compare_all(base: &Path, others: &[PathBuf]) -> Result<Comparisons> {
+    super::compare(base, others, &Options { threshold_percent: 1.0, pictures: None })
 }
 
 /// A result directory under construction: counters of two frames, times of two runs.
@@ -254,7 +260,7 @@ fn a_method_slowed_by_a_twentieth_is_called_slower_and_no_other() {
     let [a, b] = ["a", "b"].map(|name| root.path().join(name));
     write_set(&a, 1, 1.0);
     write_set(&b, 2, 1.05);
-    let compared = super::compare(&a, std::slice::from_ref(&b), 1.0).unwrap();
+    let compared = compare_all(&a, std::slice::from_ref(&b)).unwrap();
     for (run, time) in compared.first.times() {
         let slowed = run.run.starts_with("indi-ortho-4");
         assert_eq!(time.verdict == Verdict::Slower, slowed, "{compared}");
@@ -283,7 +289,7 @@ fn times_of_one_distribution_are_never_called_slower() {
         let [a, b] = ["a", "b"].map(|name| root.path().join(format!("{name}{seed}")));
         write_set(&a, 100 + 2 * seed, 1.0);
         write_set(&b, 101 + 2 * seed, 1.0);
-        let compared = super::compare(&a, &[b], 1.0).unwrap();
+        let compared = compare_all(&a, &[b]).unwrap();
         assert_eq!((compared.verdicts.slower, compared.verdicts.faster), (0, 0), "seed {seed}: {compared}");
     }
 }
@@ -295,14 +301,14 @@ fn several_sets_are_each_compared_with_the_first() {
     Fixture::default().write(a.join("run"));
     Fixture { runs: vec![9.0, 9.1], ..Fixture::default() }.write(b.join("run"));
     Fixture { frames: vec![(0, 100), (40, 75)], ..Fixture::default() }.write(c.join("run"));
-    let compared: Comparisons = super::compare(&a, &[b, c.clone()], 1.0).unwrap();
+    let compared: Comparisons = compare_all(&a, &[b, c.clone()]).unwrap();
     assert_eq!((compared.first.difference(), compared.further.len()), (None, 1));
     let difference = compared.difference().unwrap();
     assert!(difference.starts_with(&format!("{}: the results differ", c.display())), "{difference}");
     let json = serde_json::to_value(&compared).unwrap();
     assert_eq!(json["runs"][0]["times"][0]["verdict"], "undecided");
     assert_eq!(json["further"][0]["runs"][0]["frames"], 2);
-    assert!(super::compare(&a, &[], 1.0).is_err());
+    assert!(compare_all(&a, &[]).is_err());
 }
 
 #[test]

@@ -33,7 +33,7 @@ mod target;
 mod trace;
 
 #[cfg(test)]
-mod testing;
+pub(crate) mod testing;
 #[cfg(test)]
 mod tests;
 
