@@ -2,6 +2,7 @@
 
 use super::table::interval;
 use super::{Comparison, Comparisons, Verdict};
+use crate::output::FRAME;
 use serde::{Serialize, Serializer};
 use std::fmt;
 
@@ -56,7 +57,7 @@ fn section(f: &mut fmt::Formatter<'_>, comparison: &Comparison) -> fmt::Result {
     }
     let told = |verdict: Verdict| matches!(verdict, Verdict::Faster | Verdict::Slower);
     let mut rows =
-        comparison.times().filter(|(_, time)| told(time.verdict) || time.stage == "frame").peekable();
+        comparison.times().filter(|(_, time)| told(time.verdict) || time.stage == FRAME).peekable();
     if rows.peek().is_none() {
         return Ok(());
     }

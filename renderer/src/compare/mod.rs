@@ -120,6 +120,8 @@ pub struct CounterComparison {
 pub struct TimeComparison {
     /// Path in the stage tree without the numbers of views and clusterings.
     pub stage: String,
+    /// The stage's part of the frame's time by A, from 0 to 1.
+    pub part_of_frame: f64,
     /// How many temporal runs are compared: as many as the side with fewer has.
     pub runs: usize,
     /// Milliseconds a frame: the mean over frames of the minimum over runs.

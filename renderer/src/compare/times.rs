@@ -3,7 +3,7 @@
 use super::verdict::Verdict;
 use super::{Spread, TimeComparison};
 use crate::Result;
-use crate::output::saved_samples;
+use crate::output::{FRAME, saved_samples};
 use crate::stats::Samples;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -13,7 +13,12 @@ use std::path::Path;
 pub(super) fn compare(a: &Path, b: &Path, frames: &BTreeSet<u32>) -> Result<Vec<TimeComparison>> {
     let frames: Vec<u32> = frames.iter().copied().collect();
     let [a, b] = [kinds(a, &frames)?, kinds(b, &frames)?];
-    Ok(a.iter().filter_map(|(kind, a)| Some(compare_kind(kind, [a, b.get(kind)?]))).flatten().collect())
+    let compared = a.iter().filter_map(|(kind, a)| compare_kind(kind, [a, b.get(kind)?]));
+    let mut times: Vec<TimeComparison> = compared.collect();
+    if let Some(frame_ms) = times.iter().find(|time| time.stage == FRAME).map(|frame| frame.a_ms) {
+        times.iter_mut().for_each(|time| time.part_of_frame = time.a_ms / frame_ms);
+    }
+    Ok(times)
 }
 
 /// Times by kind of stage, over views and clusterings.
@@ -36,6 +41,7 @@ fn compare_kind(kind: &str, sides: [&Samples; 2]) -> Option<TimeComparison> {
     let [spread_over_runs_a, spread_over_runs_b] = sides.each_ref().map(spread_over_runs);
     Some(TimeComparison {
         stage: kind.to_owned(),
+        part_of_frame: 1.0,
         runs,
         a_ms: a.value,
         b_ms: b.value,

@@ -5,21 +5,28 @@
 //! Rate*, 1995), at most 5 % of those called changed are expected to be unchanged, and where nothing changed at all there
 //! is with a chance of 95 % no such. The intervals told are widened to match (Benjamini and Yekutieli 2005), so that
 //! one rule and one interval decide.
+//!
+//! A short stage changes by tens of percent with a clock or with what ran before it, which matters to nobody: a stage's
+//! change must also be a change of the frame ([`LEAST_OF_FRAME`]).
 
 use super::TimeComparison;
 use crate::stats::{Interval, LEVEL};
 use serde::Serialize;
 use std::fmt;
 
+/// A stage's change must be of as large a part of the frame's time, in thresholds: a quarter of a percent by default.
+const LEAST_OF_FRAME: f64 = 0.25;
+
 /// What can be said of a ratio of times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
-    /// The interval lies below 1, and the ratio beyond the threshold.
+    /// The interval lies below 1, the ratio beyond the threshold, and the change is more than a quarter of the threshold of
+    /// the frame's time.
     Faster,
-    /// The interval lies above 1, and the ratio beyond the threshold.
+    /// The interval lies above 1, the ratio beyond the threshold, and the change is as above.
     Slower,
-    /// The whole interval lies within the threshold.
+    /// The whole interval lies within the threshold, or within what changes the frame by a quarter of it.
     Same,
     /// None of these; or a side has fewer than two temporal runs, which tell nothing of noise.
     Undecided,
@@ -46,12 +53,13 @@ pub(super) fn judge(times: &mut [&mut TimeComparison], threshold: f64) {
         let Some(noise) = time.noise else { continue };
         let interval = Interval::around(time.ratio.ln(), noise.half_width(level)).exp();
         time.interval = Some(interval);
-        time.verdict = verdict(time.ratio, interval, threshold);
+        time.verdict = verdict(time.ratio, interval, [threshold, time.part_of_frame]);
     }
 }
 
-fn verdict(ratio: f64, interval: Interval, threshold: f64) -> Verdict {
-    let least = 1.0 + threshold;
+/// By the ratio of a stage that took such a part of the frame's time.
+fn verdict(ratio: f64, interval: Interval, [threshold, part_of_frame]: [f64; 2]) -> Verdict {
+    let least = 1.0 + threshold.max(LEAST_OF_FRAME * threshold / part_of_frame);
     if interval.low > 1.0 && ratio > least {
         Verdict::Slower
     } else if interval.high < 1.0 && ratio < 1.0 / least {
@@ -112,12 +120,23 @@ mod tests {
 
     #[test]
     fn verdicts_are_by_interval_and_threshold() {
-        let of = |low: f64, high: f64| verdict((low * high).sqrt(), Interval { low, high }, 0.01);
+        let of = |low: f64, high: f64| verdict((low * high).sqrt(), Interval { low, high }, [0.01, 1.0]);
         assert_eq!(of(1.03, 1.05), Verdict::Slower);
         assert_eq!(of(0.94, 0.99), Verdict::Faster);
         assert_eq!(of(1.002, 1.006), Verdict::Same, "a difference, and none that matters");
         assert_eq!(of(0.995, 1.03), Verdict::Undecided);
         assert_eq!(of(1.004, 1.012), Verdict::Undecided, "a difference that may or may not matter");
+    }
+
+    #[test]
+    fn a_stage_must_change_the_frame_to_matter() {
+        let of = |low: f64, high: f64, part: f64| {
+            verdict((low * high).sqrt(), Interval { low, high }, [0.01, part])
+        };
+        assert_eq!(of(1.04, 1.06, 0.1), Verdict::Slower, "half a percent of the frame");
+        assert_eq!(of(1.04, 1.06, 0.01), Verdict::Same, "a twentieth of a percent");
+        assert_eq!(of(1.1, 1.6, 0.01), Verdict::Slower);
+        assert_eq!(of(0.7, 1.4, 0.01), Verdict::Undecided);
     }
 
     #[test]

@@ -54,7 +54,7 @@ pub use saved::{
     Age, Older, age, find_runs, is_complete, newest_of_each, saved_fingerprint, saved_frames, saved_means,
 };
 pub use stages::StageMinima;
-pub(crate) use stages::{kind as stage_kind, makes_lists};
+pub(crate) use stages::{FRAME, kind as stage_kind, makes_lists};
 pub(crate) use strict::each_row;
 pub use summary::{Intervals, RunMeans, Summary, SummaryRow, Values};
 pub(crate) use summary::{TABLE_LINES, grouped, with_interval};

@@ -98,9 +98,10 @@ impl Values {
 }
 
 impl Intervals {
-    /// Of the means of a run.
+    /// Of the means of a run: no time is below 0.
     pub fn of(times: &MeasuredTimes) -> Self {
-        Self(COLUMNS.map(|column| times.of(column.time?)?.interval()))
+        let from_zero = |Interval { low, high }| Interval { low: low.max(0.0), high };
+        Self(COLUMNS.map(|column| times.of(column.time?)?.interval().map(from_zero)))
     }
 
     /// Of their ratios to those of another run.
@@ -147,11 +148,13 @@ pub fn ratio_cell(value: Option<f64>) -> String {
     value.map(|value| format!("{value:.6}")).unwrap_or_default()
 }
 
-/// A number and half its interval, such as `84.1 ±0.6`: to as many decimals, between `fewest` and `most`, as that half has
+/// A number and half its interval (the larger part, where it is not in its middle), such as `84.1 ±0.6`: to as many decimals, between `fewest` and `most`, as that half has
 /// to one significant digit, or to two that begin with 1; and that half rounded up. Without an interval: the number, to the most decimals, or to the
 /// fewest where there are some. An interval of no width is none.
 pub(crate) fn with_interval(value: f64, interval: Option<Interval>, [fewest, most]: [usize; 2]) -> String {
-    let half = interval.map(|interval| interval.half()).filter(|half| *half > 0.0 && half.is_finite());
+    let half = interval
+        .map(|Interval { low, high }| (value - low).max(high - value))
+        .filter(|half| *half > 0.0 && half.is_finite());
     let Some(half) = half else {
         let digits = if fewest > 0 { fewest } else { most };
         return format!("{value:.digits$}");
@@ -190,7 +193,7 @@ mod tests {
         assert_eq!(time(0.5, 0.5), "0.5 ±0.5");
         assert_eq!(time(84.1234, 1e-7), "84.123 ±0.001");
         assert_eq!(time(84.1234, 0.0), "84.123");
-        assert_eq!(with_interval(1.25, Some(Interval { low: 1.2, high: 1.3 }), [2, 3]), "1.25 ±0.05");
+        assert_eq!(with_interval(1.25, Some(Interval { low: 1.22, high: 1.3 }), [2, 3]), "1.25 ±0.05");
         assert_eq!(with_interval(1.0, None, [2, 3]), "1.00");
     }
 }
