@@ -369,7 +369,14 @@ fn results_are_compared_and_a_difference_is_an_exit_code() {
     assert!(String::from_utf8_lossy(&differs.stdout).contains("missing in B: frames 380"));
     let json = output(manylight().args(["compare", "--json"]).args([out("a"), out("a")]));
     let json: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
-    assert_eq!(json["runs"][0]["times"][0]["exceeds_noise"], false);
+    assert_ne!(json["runs"][0]["times"][0]["verdict"], "slower");
+    let page = out("page.html");
+    let mut markdown = manylight();
+    markdown.args(["compare", "--markdown", "--fail-slower", "5", "--html"]);
+    let markdown = succeed(markdown.arg(&page).args([out("a"), out("a"), out("a")]));
+    assert!(String::from_utf8_lossy(&markdown.stdout).starts_with("### manylight compare: 0 slower, "));
+    assert!(read(page).contains("manylight compare"));
+    assert!(refused(manylight().args(["compare", "a", "b", "--threshold=-1"])).contains("percentage"));
     assert!(refused(manylight().arg("compare").args([out("a"), out("nowhere")])).contains("nowhere"));
 }
 

@@ -45,7 +45,7 @@ const EXIT_CODES: &str = "\
 Exit codes:
   0    done
   1    the program or the driver misbehaved: a validation message, a lost device;
-       or `compare` found counters that differ
+       or `compare` found counters that differ, or a time slower than --fail-slower allows
   2    something to be mended: a flag, a file, a missing device
   3    some runs of a replay failed; each left OUT/<run>.error.json, and the others are complete
   130  interrupted; the frame was finished and what was complete is kept
@@ -64,7 +64,7 @@ enum Command {
     Report(report::Args),
     /// Look at one frame from any camera: clusters, frusta, light volumes, heat maps
     Still(Box<still::Args>),
-    /// Compare two result sets run by run: counters exactly, times against their noise
+    /// Compare result sets run by run: counters exactly, times against their noise
     Compare(compare::Args),
     /// Write results as one table for pandas, R or a spreadsheet
     Export(export::Args),

@@ -1,13 +1,14 @@
 //! Joining runs by configuration, and the exact comparison of their counters.
 
 use super::read::{self, Identity, RunEntry};
-use super::{Comparison, CounterComparison, ResultSet, RunComparison, Spread, times};
+use super::{Comparison, CounterComparison, ResultSet, RunComparison, Spread, images, times};
 use crate::Result;
 use crate::output::{ClusteringRow, FrameRow, HistogramRow, Older, Row, check_run, newest_of_each};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-pub(super) fn join(a: &Path, b: &Path) -> Result<Comparison> {
+/// Joins and compares two sets; with `pictures`, those of differences of images go there.
+pub(super) fn join(a: &Path, b: &Path, pictures: Option<&Path>) -> Result<Comparison> {
     let [mut runs_a, mut runs_b] = [read::find_runs(a)?, read::find_runs(b)?];
     // Results of earlier versions do not know what their lights file held.
     let known = |run: &RunEntry| run.lights_file.as_ref().is_none_or(|(_, sha256)| sha256.is_some());
@@ -23,7 +24,10 @@ pub(super) fn join(a: &Path, b: &Path) -> Result<Comparison> {
     let mut missing_in_b = vec![];
     for run in &runs_a {
         match twin(run, &runs_b) {
-            Some(other) => runs.push(compare_runs(run, &runs_b[other])?),
+            Some(other) => {
+                let pictures = pictures.map(|out| images::directory_of(out, a, &run.directory));
+                runs.push(compare_runs(run, &runs_b[other], pictures.as_deref())?);
+            }
             None => missing_in_b.push(run.label.clone()),
         }
     }
@@ -65,7 +69,7 @@ fn result_set(directory: &Path, runs: &[RunEntry]) -> ResultSet {
     }
 }
 
-fn compare_runs(a: &RunEntry, b: &RunEntry) -> Result<RunComparison> {
+fn compare_runs(a: &RunEntry, b: &RunEntry, pictures: Option<&Path>) -> Result<RunComparison> {
     let [counters_a, counters_b] = [read::counters(&a.directory)?, read::counters(&b.directory)?];
     let frames: BTreeSet<u32> =
         counters_a.keys().filter(|frame| counters_b.contains_key(frame)).copied().collect();
@@ -80,6 +84,7 @@ fn compare_runs(a: &RunEntry, b: &RunEntry) -> Result<RunComparison> {
         frames_missing_in_b: missing(&counters_a),
         counters,
         times: times::compare(&a.directory, &b.directory, &frames)?,
+        images: images::compare([&a.directory, &b.directory], pictures)?,
     })
 }
 

@@ -1,21 +1,51 @@
-//! Comparing two result sets: the regression check of anyone who changes a shader.
+//! Comparing result sets: the regression check of anyone who changes a shader.
 //!
 //! Runs are joined by what they were asked to do, not by where they lie. Counters are compared exactly, frame by
-//! frame. Times are compared as ratios of minima over the temporal runs, and a difference counts only where it
-//! exceeds the noise that those runs show among themselves (see [`TimeComparison::noise`]).
+//! frame. Times are compared as ratios of minima over the temporal runs, with the noise that those runs show
+//! ([`crate::stats`]), and judged together ([`verdict`]).
+//!
+//! ```text
+//! A ─┬─ join ──> runs ──> counters (exact), times ──> verdicts ──┬──> table, Markdown, JSON, page
+//! B ─┘                  images (channels, FLIP)                  └──> exit code
+//! ```
 
+mod flip;
+mod images;
 mod join;
+mod markdown;
+mod page;
 mod read;
 mod table;
 mod times;
+mod verdict;
 
 #[cfg(test)]
 mod tests;
 
+pub use images::{ChannelComparison, Flip, ImageComparison};
+pub use markdown::Markdown;
+pub use page::write_page;
+pub use verdict::{Tally, Verdict};
+
 use crate::Result;
 use crate::output::Older;
+use crate::stats::{Interval, Noise};
 use serde::Serialize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// Result sets, each compared with the first.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Comparisons {
+    /// A ratio of times matters that differs from 1 by more than so many percent.
+    pub threshold_percent: f64,
+    /// Verdicts over all sets, runs and stages.
+    pub verdicts: Tally,
+    /// The second set against the first.
+    #[serde(flatten)]
+    pub first: Comparison,
+    /// Any further set against the first.
+    pub further: Vec<Comparison>,
+}
 
 /// Two result sets, side by side.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -62,6 +92,8 @@ pub struct RunComparison {
     pub counters: Vec<CounterComparison>,
     /// A row a stage; empty where either side has no temporal runs.
     pub times: Vec<TimeComparison>,
+    /// Layers of frames that both rendered to files.
+    pub images: Vec<ImageComparison>,
 }
 
 /// One counter over the frames that both sets have.
@@ -88,6 +120,10 @@ pub struct CounterComparison {
 pub struct TimeComparison {
     /// Path in the stage tree without the numbers of views and clusterings.
     pub stage: String,
+    /// The stage's part of the frame's time by A, from 0 to 1.
+    pub part_of_frame: f64,
+    /// How many temporal runs are compared: as many as the side with fewer has.
+    pub runs: usize,
     /// Milliseconds a frame: the mean over frames of the minimum over runs.
     pub a_ms: f64,
     /// Milliseconds a frame: the mean over frames of the minimum over runs.
@@ -96,16 +132,17 @@ pub struct TimeComparison {
     pub ratio: f64,
     /// The same of single frames.
     pub over_frames: Spread,
-    /// How far the runs of one set lie apart: the longest run's total of the stage over the shortest one's, minus 1.
+    /// How far the runs of one set lie apart: the longest run's mean of the stage over the shortest one's, minus 1.
     pub spread_over_runs_a: Option<f64>,
     /// The same of B.
     pub spread_over_runs_b: Option<f64>,
-    /// The largest factor, minus 1, that noise explains: (1 + spread of A) (1 + spread of B) - 1. A run's total
-    /// varies more than the minima do that ratios are made of, so this is on the safe side. `None` where a
-    /// set has fewer than two temporal runs.
-    pub noise: Option<f64>,
-    /// Whether the ratio or its inverse exceeds 1 + `noise`.
-    pub exceeds_noise: Option<bool>,
+    /// Noise of the ratio's logarithm; `None` for fewer than two temporal runs on a side.
+    #[serde(skip)]
+    noise: Option<Noise>,
+    /// Where the ratio lies, by 95 % intervals that are widened for how many are told; `None` without noise known.
+    pub interval: Option<Interval>,
+    /// What that lets be said.
+    pub verdict: Verdict,
 }
 
 /// Ratios of single frames.
@@ -119,15 +156,85 @@ pub struct Spread {
     pub max: f64,
 }
 
-/// Compares every run under `a` with the run of the same configuration under `b`.
+/// How sets are compared.
+#[derive(Debug, Clone, Default)]
+pub struct Options {
+    /// A ratio of times matters that differs from 1 by more than so many percent.
+    pub threshold_percent: f64,
+    /// Where pictures of differences of images go: a directory a run below it, of several sets below their numbers.
+    pub pictures: Option<PathBuf>,
+}
+
+/// Compares every run under `base` with the run of the same configuration under each of `others`, of which there is at
+/// least one.
 ///
 /// # Errors
-/// A directory that is missing or holds no run, a file that is damaged or no result of this version.
-pub fn compare(a: &Path, b: &Path) -> Result<Comparison> {
-    join::join(a, b)
+/// A directory that is missing or holds no run, a file that is damaged or no result of this version, a picture that
+/// cannot be written.
+pub fn compare(base: &Path, others: &[PathBuf], options: &Options) -> Result<Comparisons> {
+    let threshold_percent = options.threshold_percent;
+    let pictures = |place: usize| match others.len() {
+        1 => options.pictures.clone(),
+        _ => options.pictures.as_ref().map(|out| out.join((place + 2).to_string())),
+    };
+    let join = |(place, other): (usize, &PathBuf)| join::join(base, other, pictures(place).as_deref());
+    let mut all = others.iter().enumerate().map(join).collect::<Result<Vec<_>>>()?;
+    let times = all.iter_mut().flat_map(|comparison| &mut comparison.runs).flat_map(|run| &mut run.times);
+    verdict::judge(&mut times.collect::<Vec<_>>(), threshold_percent / 100.0);
+    let verdicts = Tally::of(all.iter().flat_map(Comparison::times).map(|(_, time)| time));
+    if all.is_empty() {
+        return Err(crate::Error::input("nothing to compare with: give two result sets or more"));
+    }
+    let first = all.remove(0);
+    Ok(Comparisons { threshold_percent, verdicts, first, further: all })
+}
+
+impl Comparisons {
+    /// Each further set against the first.
+    pub fn all(&self) -> impl Iterator<Item = &Comparison> {
+        std::iter::once(&self.first).chain(&self.further)
+    }
+
+    /// What is not equal, as one line; `None` where every counter of every run and frame is.
+    pub fn difference(&self) -> Option<String> {
+        let several = !self.further.is_empty();
+        let of = |comparison: &Comparison| {
+            let difference = comparison.difference()?;
+            Some(if several { format!("{}: {difference}", comparison.b.directory) } else { difference })
+        };
+        let differences: Vec<String> = self.all().filter_map(of).collect();
+        (!differences.is_empty()).then(|| differences.join("; "))
+    }
+
+    /// What became slower by more than so many percent, as one line: its whole interval lies beyond.
+    pub fn slower_than(&self, percent: f64) -> Option<String> {
+        let beyond = |time: &TimeComparison| {
+            time.interval
+                .filter(|interval| interval.low > 1.0 + percent / 100.0 && time.verdict == Verdict::Slower)
+        };
+        let times = self.all().flat_map(Comparison::times);
+        let mut slower = times.filter_map(|(run, time)| Some((run, time, beyond(time)?)));
+        let (run, time, Interval { low, high }) = slower.next()?;
+        let more = match slower.count() {
+            0 => String::new(),
+            more => format!(" (and {more} more)"),
+        };
+        Some(format!(
+            "slower by more than {percent} %: {} of {}, by {:.1} to {:.1} %{more}",
+            time.stage,
+            run.run,
+            100.0 * (low - 1.0),
+            100.0 * (high - 1.0),
+        ))
+    }
 }
 
 impl Comparison {
+    /// Every time of every run.
+    pub fn times(&self) -> impl Iterator<Item = (&RunComparison, &TimeComparison)> {
+        self.runs.iter().flat_map(|run| run.times.iter().map(move |time| (run, time)))
+    }
+
     /// What is not equal, as one line; `None` where every counter of every run and frame is.
     pub fn difference(&self) -> Option<String> {
         let counters = self.runs.iter().filter(|run| run.counters.iter().any(CounterComparison::differs));
@@ -135,8 +242,10 @@ impl Comparison {
             .runs
             .iter()
             .filter(|run| !run.frames_missing_in_a.is_empty() || !run.frames_missing_in_b.is_empty());
+        let pixels = self.runs.iter().filter(|run| run.images.iter().any(ImageComparison::integers_differ));
         let faults = [
             (counters.count(), "with counters that differ"),
+            (pixels.count(), "with images whose integers differ"),
             (frames.count(), "with frames that only one side has"),
             (self.missing_in_a.len(), "missing in A"),
             (self.missing_in_b.len(), "missing in B"),

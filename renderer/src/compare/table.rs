@@ -1,9 +1,32 @@
 //! The comparison as people read it.
 
-use super::{Comparison, CounterComparison, ResultSet, RunComparison, TimeComparison};
+use super::{Comparison, Comparisons, CounterComparison, ResultSet, RunComparison, TimeComparison};
 use crate::output::{TABLE_LINES, grouped};
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 use std::fmt;
+
+impl fmt::Display for Comparisons {
+    /// Each comparison, then how its verdicts are meant and how many there are of each.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (place, comparison) in self.all().enumerate() {
+            write!(f, "{}{comparison}", if place > 0 { "\n\n" } else { "" })?;
+        }
+        match self.all().any(|comparison| comparison.times().next().is_some()) {
+            true => write!(f, "\n{}", self.about_times()),
+            false => Ok(()),
+        }
+    }
+}
+
+impl Comparisons {
+    /// The verdicts counted, and what they mean, in one line.
+    pub(super) fn about_times(&self) -> String {
+        format!(
+            "Times: {}. Same is within {} %; intervals are of 95 %, widened for as many as are told.",
+            self.verdicts, self.threshold_percent
+        )
+    }
+}
 
 impl fmt::Display for Comparison {
     /// Where results come from, then of every run the counters that differ and the times, then what is missing.
@@ -45,6 +68,11 @@ fn display_run(f: &mut fmt::Formatter<'_>, run: &RunComparison) -> fmt::Result {
     if differing.is_empty() {
         writeln!(f, "  counters: all {} equal in {} frames", run.counters.len(), run.frames)?;
     }
+    let (other, same): (Vec<_>, Vec<_>) = run.images.iter().partition(|image| image.differs());
+    other.iter().try_for_each(|image| writeln!(f, "  image {image}"))?;
+    if !same.is_empty() {
+        writeln!(f, "  images: {} layers equal in every channel", same.len())?;
+    }
     if run.times.is_empty() {
         writeln!(f, "  times: not on both sides")?;
     }
@@ -53,7 +81,7 @@ fn display_run(f: &mut fmt::Formatter<'_>, run: &RunComparison) -> fmt::Result {
     }
     let mut table = Table::new();
     table.load_preset(TABLE_LINES).set_content_arrangement(ContentArrangement::Disabled);
-    table.set_header(["metric", "A", "B", "B/A", "over frames", "noise", "verdict"]);
+    table.set_header(["metric", "A", "B", "B/A", "over frames", "interval", "verdict"]);
     table.add_rows(differing.iter().map(|counter| counter_row(counter, run.frames)));
     table.add_rows(run.times.iter().map(time_row));
     for column in table.column_iter_mut().skip(1).take(5) {
@@ -76,11 +104,9 @@ fn counter_row(counter: &CounterComparison, frames: usize) -> [String; 7] {
 }
 
 fn time_row(time: &TimeComparison) -> [String; 7] {
-    let verdict = match time.exceeds_noise {
-        None => "noise unknown: fewer than 2 temporal runs",
-        Some(false) => "within noise",
-        Some(true) if time.ratio > 1.0 => "slower",
-        Some(true) => "faster",
+    let verdict = match time.interval {
+        None => "undecided: fewer than 2 temporal runs".to_owned(),
+        Some(_) => time.verdict.to_string(),
     };
     [
         format!("{} ms", time.stage),
@@ -88,9 +114,14 @@ fn time_row(time: &TimeComparison) -> [String; 7] {
         format!("{:.3}", time.b_ms),
         format!("{:.3}", time.ratio),
         format!("{:.2} .. {:.2}", time.over_frames.min, time.over_frames.max),
-        time.noise.map(|noise| format!("{:.1} %", 100.0 * noise)).unwrap_or_default(),
-        verdict.to_owned(),
+        interval(time),
+        verdict,
     ]
+}
+
+/// From where to where the ratio lies; nothing where that is not known.
+pub(super) fn interval(time: &TimeComparison) -> String {
+    time.interval.map(|interval| format!("{:.3} .. {:.3}", interval.low, interval.high)).unwrap_or_default()
 }
 
 /// Frame numbers, the first few of many.

@@ -1,6 +1,17 @@
-use super::*;
+use super::{
+    Comparison, Comparisons, CounterComparison, Markdown, Options, Result, Spread, Verdict, write_page,
+};
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+/// The one comparison of two sets, by the usual threshold.
+fn compare(a: &Path, b: &Path) -> Result<Comparison> {
+    Ok(compare_all(a, &[b.to_owned()])?.first)
+}
+
+fn compare_all(base: &Path, others: &[PathBuf]) -> Result<Comparisons> {
+    super::compare(base, others, &Options { threshold_percent: 1.0, pictures: None })
+}
 
 /// A result directory under construction: counters of two frames, times of two runs.
 struct Fixture {
@@ -196,26 +207,108 @@ fn ways_of_assignment_compare_with_each_other_unless_a_set_holds_several() {
 }
 
 #[test]
-fn times_are_ratios_of_minima_and_count_beyond_the_noise_of_the_runs() {
-    let compare_times = |runs: &[f64]| {
-        let b = Fixture { runs: runs.to_vec(), ..Fixture::default() };
-        let comparison = compare_runs(&Fixture::default(), &b);
+fn times_are_ratios_of_minima_over_as_many_runs_as_both_have() {
+    let compare_times = |a: &[f64], b: &[f64]| {
+        let with = |runs: &[f64]| Fixture { runs: runs.to_vec(), ..Fixture::default() };
+        let comparison = compare_runs(&with(a), &with(b));
         assert_eq!(comparison.difference(), None, "times are no counters");
         comparison.runs.into_iter().next().unwrap().times
     };
-    let slower = compare_times(&[10.0, 9.6]);
+    let slower = compare_times(&[8.0, 8.4], &[10.0, 9.6]);
     let stages: Vec<&str> = slower.iter().map(|time| time.stage.as_str()).collect();
     assert_eq!(stages, ["frame", "frame/shade"], "views are summed");
     let shade = &slower[1];
     assert_eq!((shade.a_ms, shade.b_ms), (4.0, 4.8));
     assert!((shade.ratio - 1.2).abs() < 1e-12 && (shade.over_frames.max - 1.2).abs() < 1e-12);
     assert!((shade.spread_over_runs_a.unwrap() - 0.05).abs() < 1e-9);
-    assert!((shade.noise.unwrap() - (1.05 * 10.0 / 9.6 - 1.0)).abs() < 1e-9);
-    assert_eq!(shade.exceeds_noise, Some(true));
-    assert_eq!(compare_times(&[8.2, 8.6])[0].exceeds_noise, Some(false));
-    assert_eq!(compare_times(&[6.0, 6.1])[0].exceeds_noise, Some(true), "faster counts too");
-    assert_eq!(compare_times(&[9.0])[0].exceeds_noise, None);
-    assert!(compare_times(&[]).is_empty());
+    assert!(
+        shade.verdict == Verdict::Undecided && shade.interval.unwrap().straddles(1.0),
+        "two runs: {shade:?}"
+    );
+    let five = [8.0, 8.02, 8.01, 8.03, 8.02];
+    let verdict = |factor: f64| compare_times(&five, &five.map(|ms| ms * factor))[0].verdict;
+    let expected = [Verdict::Slower, Verdict::Faster, Verdict::Same, Verdict::Same];
+    assert_eq!([1.2, 0.9, 1.0, 1.001].map(verdict), expected);
+    let fewer = &compare_times(&five, &[9.0])[0];
+    assert_eq!((fewer.runs, fewer.interval, fewer.verdict), (1, None, Verdict::Undecided));
+    assert!(compare_times(&five, &[]).is_empty());
+}
+
+/// Five temporal runs of one frame's time, with noise of each run and of each frame, one-sided as another's load is.
+fn noisy_runs(seed: u64, scale: f64) -> Vec<f64> {
+    use rand_core::Rng;
+    let mut random = rand_pcg::Pcg32::new(seed, 11);
+    let mut uniform = || (f64::from(random.next_u32()) + 0.5) / 4_294_967_296.0;
+    (0..5).map(|_| scale * 8.0 * (1.0 + 0.01 * uniform()) * (1.0 - 0.003 * uniform().ln())).collect()
+}
+
+/// A set of four methods, of which one is slower by a factor.
+fn write_set(root: &Path, seed: u64, slow: f64) {
+    for (place, method) in
+        ["indi-persp-64", "encl-persp-64", "indi-ortho-4", "encl-ortho-4"].into_iter().enumerate()
+    {
+        let scale = if place == 2 { slow } else { 1.0 };
+        let runs = noisy_runs(seed * 10 + place as u64, scale);
+        let frames = (0..30).map(|frame| (frame, 100)).collect();
+        Fixture { method, runs, frames, ..Fixture::default() }.write(root.join(method));
+    }
+}
+
+#[test]
+fn a_method_slowed_by_a_twentieth_is_called_slower_and_no_other() {
+    let root = tempfile::tempdir().unwrap();
+    let [a, b] = ["a", "b"].map(|name| root.path().join(name));
+    write_set(&a, 1, 1.0);
+    write_set(&b, 2, 1.05);
+    let compared = compare_all(&a, std::slice::from_ref(&b)).unwrap();
+    for (run, time) in compared.first.times() {
+        let slowed = run.run.starts_with("indi-ortho-4");
+        assert_eq!(time.verdict == Verdict::Slower, slowed, "{compared}");
+    }
+    let fault = compared.slower_than(2.0).unwrap();
+    assert!(
+        fault.starts_with("slower by more than 2 %: frame of indi-ortho-4, ")
+            && fault.ends_with("(and 1 more)"),
+        "{fault}"
+    );
+    assert_eq!(compared.slower_than(6.0), None);
+    assert_eq!(compared.difference(), None);
+    let text = Markdown(&compared).to_string();
+    assert!(text.starts_with("### manylight compare: 2 slower, 0 faster, "), "{text}");
+    assert_eq!(text.matches("| **slower** |").count(), 2, "{text}");
+    let page = root.path().join("page.html");
+    write_page(&page, &compared).unwrap();
+    let page = fs::read_to_string(page).unwrap();
+    assert_eq!(page.matches("class=\"verdict fails\">slower").count(), 2);
+}
+
+#[test]
+fn times_of_one_distribution_are_never_called_slower() {
+    let root = tempfile::tempdir().unwrap();
+    for seed in 0..10 {
+        let [a, b] = ["a", "b"].map(|name| root.path().join(format!("{name}{seed}")));
+        write_set(&a, 100 + 2 * seed, 1.0);
+        write_set(&b, 101 + 2 * seed, 1.0);
+        let compared = compare_all(&a, &[b]).unwrap();
+        assert_eq!((compared.verdicts.slower, compared.verdicts.faster), (0, 0), "seed {seed}: {compared}");
+    }
+}
+
+#[test]
+fn several_sets_are_each_compared_with_the_first() {
+    let root = tempfile::tempdir().unwrap();
+    let [a, b, c] = ["a", "b", "c"].map(|name| root.path().join(name));
+    Fixture::default().write(a.join("run"));
+    Fixture { runs: vec![9.0, 9.1], ..Fixture::default() }.write(b.join("run"));
+    Fixture { frames: vec![(0, 100), (40, 75)], ..Fixture::default() }.write(c.join("run"));
+    let compared: Comparisons = compare_all(&a, &[b, c.clone()]).unwrap();
+    assert_eq!((compared.first.difference(), compared.further.len()), (None, 1));
+    let difference = compared.difference().unwrap();
+    assert!(difference.starts_with(&format!("{}: the results differ", c.display())), "{difference}");
+    let json = serde_json::to_value(&compared).unwrap();
+    assert_eq!(json["runs"][0]["times"][0]["verdict"], "undecided");
+    assert_eq!(json["further"][0]["runs"][0]["frames"], 2);
+    assert!(compare_all(&a, &[]).is_err());
 }
 
 #[test]

@@ -23,6 +23,7 @@ mod manifest;
 mod preview;
 mod rows;
 mod run;
+mod run_times;
 mod saved;
 mod stages;
 mod strict;
@@ -32,7 +33,7 @@ mod target;
 mod trace;
 
 #[cfg(test)]
-mod testing;
+pub(crate) mod testing;
 #[cfg(test)]
 mod tests;
 
@@ -46,15 +47,14 @@ pub use manifest::{DeviceInfo, MANIFEST, Manifest, RUN_FORMAT, Source, git_revis
 pub use preview::write_png;
 pub use preview::{cluster_preview, image_preview, light_preview, write_previews};
 pub use rows::FrameRow;
-pub(crate) use rows::{
-    ClusteringRow, FRAGMENTS_PER_CLUSTER, HistogramRow, LIGHTS_PER_CLUSTER, Row, TimingRow,
-};
+pub(crate) use rows::{ClusteringRow, FRAGMENTS_PER_CLUSTER, HistogramRow, LIGHTS_PER_CLUSTER, Row};
 pub use run::{PlannedRun, RunWriter, planned_runs, write_summary};
+pub use run_times::{ColumnTimes, MeasuredTimes, saved_samples, saved_times};
 pub use saved::{
     Age, Older, age, find_runs, is_complete, newest_of_each, saved_fingerprint, saved_frames, saved_means,
 };
 pub use stages::StageMinima;
-pub(crate) use stages::{kind as stage_kind, makes_lists};
+pub(crate) use stages::{FRAME, kind as stage_kind, makes_lists};
 pub(crate) use strict::each_row;
-pub use summary::{RunMeans, Summary, SummaryRow, Values};
-pub(crate) use summary::{TABLE_LINES, grouped};
+pub use summary::{Intervals, RunMeans, Summary, SummaryRow, Values};
+pub(crate) use summary::{TABLE_LINES, grouped, with_interval};

@@ -103,6 +103,12 @@ macro_rules! frame_row {
                 [$((stringify!($counter), u64::from(self.$counter))),*].into_iter()
             }
 
+            /// The columns of times that a stage of this kind counts among.
+            pub fn columns_of(kind: &str) -> impl Iterator<Item = &'static str> {
+                let columns: [(&'static str, &[&str]); _] = [$((stringify!($time), $stages)),*];
+                columns.into_iter().filter(move |(_, kinds)| kinds.contains(&kind)).map(|(column, _)| column)
+            }
+
             /// The times, by column, milliseconds.
             pub fn times(&self) -> impl Iterator<Item = (&'static str, Option<f64>)> {
                 [$((stringify!($time), self.$time)),*].into_iter()

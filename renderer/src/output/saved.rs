@@ -3,6 +3,7 @@
 use super::check::check_run;
 use super::manifest::{MANIFEST, Manifest};
 use super::rows::FrameRow;
+use super::run_times::{MeasuredTimes, saved_times};
 use super::strict::each_row;
 use super::summary::Values;
 use crate::{Error, Result};
@@ -114,14 +115,16 @@ pub fn saved_frames(directory: &Path) -> Result<Vec<FrameRow>> {
     Ok(rows)
 }
 
-/// How many frames the run in `directory` has, and its means over them.
+/// How many frames the run in `directory` has, its means over them, and the noise of its times.
 ///
 /// # Errors
 /// The run is not whole: see [`check_run`].
-pub fn saved_means(directory: &Path) -> Result<(usize, Values)> {
+pub fn saved_means(directory: &Path) -> Result<(usize, Values, MeasuredTimes)> {
     check_run(directory)?;
     let rows = saved_frames(directory)?;
-    Ok((rows.len(), Values::mean(&rows)))
+    let frames: Vec<u32> = rows.iter().map(|row| row.frame).collect();
+    let times = MeasuredTimes::new(&saved_times(directory, &frames)?);
+    Ok((rows.len(), Values::mean(&rows), times))
 }
 
 #[cfg(test)]

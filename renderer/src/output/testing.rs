@@ -55,7 +55,7 @@ pub(super) fn manifest() -> Manifest {
 }
 
 /// A view whose every pixel differs; the first pixel was hit by nothing.
-pub(super) fn view(name: &str, width: u32, height: u32) -> ViewPixels {
+pub(crate) fn view(name: &str, width: u32, height: u32) -> ViewPixels {
     let pixels = width * height;
     let shade = |i: u32, scale: f32| f16::from_f32(i as f32 * scale);
     ViewPixels {

@@ -88,7 +88,25 @@ fn run(method: &str, lighting: &str, counts: &[FrameCounts], times: &[FrameTimes
         ..Config::default()
     };
     let labels = Labels::new(&config, &config);
-    RunMeans { method: config.methods[0], labels, frames: rows.len(), means: Values::mean(&rows) }
+    RunMeans {
+        method: config.methods[0],
+        labels,
+        frames: rows.len(),
+        means: Values::mean(&rows),
+        times: measured(times),
+    }
+}
+
+/// The times as they are read back from a run's table.
+fn measured(times: &[FrameTimes]) -> MeasuredTimes {
+    let directory = tempfile::tempdir().unwrap();
+    let frames: Vec<u32> = times.iter().filter(|time| time.run == 0).map(|time| time.frame).collect();
+    fs::write(
+        directory.path().join("timings.csv"),
+        csv_text(|out| tables::write(out, tables::timings(times))),
+    )
+    .unwrap();
+    MeasuredTimes::new(&saved_times(directory.path(), &frames).unwrap())
 }
 
 /// Counts with twice the lighting computations.
@@ -141,10 +159,40 @@ fn summary_csv_has_means_and_ratios() {
     let summary = Summary::from_means(&[run("indi-persp-64", "1000", &few, &fast)]);
     let expected = "method,lighting,frames,visible_clusters,light_indices,lighting_computations,clustering_ms,shading_ms,\
         total_ms,reference,visible_clusters_ratio,light_indices_ratio,lighting_computations_ratio,clustering_ms_ratio,\
-        shading_ms_ratio,total_ms_ratio\n\
+        shading_ms_ratio,total_ms_ratio,runs,clustering_ms_low,clustering_ms_high,shading_ms_low,shading_ms_high,\
+        total_ms_low,total_ms_high,clustering_ms_ratio_low,clustering_ms_ratio_high,shading_ms_ratio_low,\
+        shading_ms_ratio_high,total_ms_ratio_low,total_ms_ratio_high\n\
         indi-persp-64,1000,1,4.000,9.000,650.000,1.000000,2.000000,4.000000,indi-persp-64,\
-        1.000000,1.000000,1.000000,1.000000,1.000000,1.000000\n";
+        1.000000,1.000000,1.000000,1.000000,1.000000,1.000000,1,,,,,,,,,,,,\n";
     assert_eq!(csv_text(|out| summary.write_csv(out)), expected);
+}
+
+#[test]
+fn summary_tells_how_far_times_and_their_ratios_can_be_trusted() {
+    // Three runs of two frames; all of the second method took half as long.
+    let runs = |scale: f64| -> Vec<FrameTimes> {
+        let run = |(run, ms): (u32, f64)| [times(run, 0, ms * scale), times(run, 40, 2.0 * ms * scale)];
+        (0..).zip([8.0, 8.5, 8.2]).flat_map(run).collect()
+    };
+    let both = [counts(0), counts(40)];
+    let summary = Summary::from_means(&[
+        run("indi-persp-64", "1000", &both, &runs(1.0)),
+        run("encl-persp-64", "1000", &both, &runs(0.5)),
+        run("encl-ortho-4", "1000", &both, &runs(0.5)[..4]),
+    ]);
+    let [first, half, fewer] = summary.rows.as_slice() else { panic!("three rows") };
+    let total = first.intervals.get("total_ms").unwrap();
+    assert!(total.straddles(first.means.get("total_ms").unwrap()) && total.half() > 0.5, "{total:?}");
+    let ratio = half.ratio_intervals.get("total_ms").unwrap();
+    assert!((ratio.low - 0.5).abs() < 1e-9 && ratio.half() < 1e-9, "they are paired: {ratio:?}");
+    assert_eq!(fewer.ratio_intervals.get("total_ms"), None, "minima over different numbers do not compare");
+    assert_eq!((half.runs, fewer.runs, half.intervals.get("light_indices")), (3, 2, None));
+    let table = summary.to_string();
+    assert!(table.contains("12.0 ±1.7 (1.00)"), "{table}");
+    assert!(table.ends_with("± is half the 95 % interval by 2 or 3 temporal runs."), "{table}");
+    let text = csv_text(|out| summary.write_csv(out));
+    let cells: Vec<&str> = text.lines().nth(2).unwrap().split(',').collect();
+    assert_eq!(cells[cells.len() - 2..], ["0.500000", "0.500000"], "{text}");
 }
 
 #[test]

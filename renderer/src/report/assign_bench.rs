@@ -3,10 +3,10 @@
 use super::chart::palette::NAMED;
 use super::chart::{Chart, Key, Look, Plot, Series};
 use super::results::method_name;
-use super::stats::slope;
 use crate::Result;
 use crate::methods::Method;
 use crate::output::write_whole;
+use crate::stats::slope;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 

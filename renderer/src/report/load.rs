@@ -4,7 +4,7 @@ mod manifest;
 mod tables;
 
 use super::results::{LightingName, Picture, ResultSet, Run, is_tuned};
-use crate::output::{Manifest, Older, age, check_run, find_runs, newest_of_each};
+use crate::output::{Manifest, Older, age, check_run, find_runs, newest_of_each, saved_times};
 use crate::{Error, Result};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -121,6 +121,7 @@ fn read_run(Found { name, directory, manifest: file }: &Found) -> Result<Run> {
     if is_tuned(method) {
         (distributions, most_fragments) = tables::read_histograms(directory, &frames.numbers)?;
     }
+    let times = saved_times(directory, &frames.numbers)?;
     Ok(Run {
         name: name.clone(),
         setting: manifest::setting(file, views, method)?,
@@ -135,6 +136,7 @@ fn read_run(Found { name, directory, manifest: file }: &Found) -> Result<Run> {
         temporal_runs: file.config.runs,
         grid,
         frames,
+        times,
         distributions,
         most_fragments,
         pictures: pictures(&directory.join("frames")),

@@ -6,7 +6,7 @@
 //! DIR... ──> load ──> ResultSet ──┬─> figures ──> chart (SVG, CSV) ──┐        figures and claims: a folder a paper
 //!                                 ├─> claims ────────────────────────┼──> page (index.html)
 //!                                 ├─> tables ────────────────────────┤
-//!                                 └─> stats ─────────────────────────┘
+//!                                 └─> runs.csv
 //! OUT/
 //!   index.html           everything, in one file that opens offline
 //!   claims.json          the claims with the numbers behind them
@@ -27,7 +27,6 @@ mod page;
 mod paper;
 mod pictures;
 mod results;
-mod stats;
 mod tables;
 mod way;
 
@@ -35,6 +34,8 @@ mod way;
 mod testing;
 #[cfg(test)]
 mod tests;
+
+pub(crate) use page::{document, text};
 
 pub use claim::{ByWay, Claim, Evidence, Number, Verdict};
 pub(crate) use load::{Found, find};

@@ -3,7 +3,8 @@
 use super::way::Way;
 use crate::machine::{Conditions, Machine};
 use crate::methods::{Method, Sharing, Space};
-use crate::output::{FrameRow, Older};
+use crate::output::{ColumnTimes, FrameRow, Older};
+use crate::stats::{Measured, Samples};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -105,6 +106,8 @@ pub struct Run {
     pub grid: Option<[u32; 3]>,
     /// `frames.csv`.
     pub frames: Frames,
+    /// The times among them, of every temporal run.
+    pub times: ColumnTimes,
     /// Clusters by light count and by fragment count; loaded of tuned methods alone.
     pub distributions: BTreeMap<Distribution, Vec<Vec<u64>>>,
     /// The most fragments of any cluster of any frame; known of tuned methods alone.
@@ -251,6 +254,13 @@ impl Frames {
         self.metrics.iter().find(|(known, _)| known == name).map_or(&[], |(_, cells)| cells)
     }
 
+    /// Puts other values, a frame each, in the place of a metric's.
+    pub fn replace(&mut self, name: &str, values: Vec<f64>) {
+        if let Some((_, cells)) = self.metrics.iter_mut().find(|(known, _)| known == name) {
+            *cells = values.into_iter().map(Some).collect();
+        }
+    }
+
     /// (frame, value) wherever there is a value.
     pub fn points(&self, name: &str) -> Vec<[f64; 2]> {
         let cells = self.metric(name).iter();
@@ -264,6 +274,13 @@ impl Frames {
     /// The values that are there.
     pub fn values(&self, name: &str) -> impl Iterator<Item = f64> {
         self.metric(name).iter().filter_map(|cell| *cell)
+    }
+}
+
+impl Run {
+    /// A time's mean over frames with its noise; `None` of what is no time, or was not timed.
+    pub fn measured(&self, metric: &str) -> Option<Measured> {
+        self.times.get(metric).map(Samples::measure)
     }
 }
 

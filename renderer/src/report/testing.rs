@@ -3,6 +3,7 @@
 use super::results::{Distribution, Frames, LightingName, ResultSet, Run, Setting, metric};
 use crate::machine::{Conditions, Machine};
 use crate::methods::Method;
+use crate::stats::Samples;
 use std::collections::BTreeMap;
 
 /// Frames of every made-up run: two of them look at far geometry.
@@ -53,6 +54,7 @@ pub fn run(method: &str, views: u32, lights: u32, value: impl Fn(&str, u32) -> O
             numbers: FRAMES.to_vec(),
             metrics: names.iter().map(|&name| (name.to_owned(), cells(name))).collect(),
         },
+        times: BTreeMap::new(),
         distributions: BTreeMap::from([
             (Distribution::Lights, vec![vec![3, 0, 5]; FRAMES.len()]),
             (Distribution::Fragments, vec![vec![0, 8]; FRAMES.len()]),
@@ -60,6 +62,15 @@ pub fn run(method: &str, views: u32, lights: u32, value: impl Fn(&str, u32) -> O
         most_fragments: Some(4096),
         pictures: vec![],
     }
+}
+
+/// The run as three temporal runs measured it: a time of it in each, of which the least are those it has.
+pub fn timed(mut run: Run, metric: &'static str, factors: [f64; 3]) -> Run {
+    let least = factors.iter().copied().fold(f64::INFINITY, f64::min);
+    let of_run = |factor: f64| run.frames.values(metric).map(|time| time * factor / least).collect();
+    let samples = Samples::new(FRAMES.len(), factors.map(of_run).to_vec()).unwrap();
+    run.times.insert(metric, samples);
+    run
 }
 
 /// A result set of these runs.

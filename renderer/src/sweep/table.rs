@@ -12,12 +12,13 @@ use std::fmt;
 pub fn summary(parts: &[Part]) -> Result<Summary> {
     let mut runs = Vec::new();
     for (part, run) in complete(parts) {
-        let (frames, means) = saved_means(&part.path(run))?;
+        let (frames, means, times) = saved_means(&part.path(run))?;
         runs.push(RunMeans {
             method: run.method,
             labels: run.labels.clone().of_scene(&part.directory),
             frames,
             means,
+            times,
         });
     }
     Ok(Summary::from_means(&runs))

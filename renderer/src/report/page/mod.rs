@@ -13,12 +13,13 @@ use super::format::readable;
 use super::paper::{PAPERS, Section};
 use super::results::ResultSet;
 use super::tables::Table;
+use crate::output::with_interval;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// How numbers come to be: name and explanation.
-const METHOD_NOTES: [(&str, &str); 7] = [
+const METHOD_NOTES: [(&str, &str); 8] = [
     (
         "Times",
         "GPU time of each stage from timestamp queries around it. Every stage of every frame is timed in each temporal run; \
@@ -47,6 +48,12 @@ const METHOD_NOTES: [(&str, &str); 7] = [
         "Of runs during which other processes took the CPUs (where those are the device, more than 5 % of them), a governor \
          or a performance level chose lower clocks, power or heat held them back, or clocks differed between temporal runs. \
          The machine is asked before and after each temporal run, never within one.",
+    ),
+    (
+        "Intervals",
+        "± is half the 95 % interval of the noise of measuring: the spread of the same number over halves of the temporal runs, \
+         paired by frame and run for ratios and for the margins of claims, whose distance to their bound is undecided where \
+         the interval straddles it. Of one run, it is that of its frames in blocks.",
     ),
     (
         "Statistics",
@@ -100,7 +107,8 @@ fn sections() -> impl Iterator<Item = &'static Section> {
     PAPERS.iter().flat_map(|paper| paper.sections)
 }
 
-fn document(body: &str, data: &str) -> String {
+/// The page around a body, with its styles and scripts; `data` is JSON of the numbers of figures.
+pub(crate) fn document(body: &str, data: &str) -> String {
     format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n\
@@ -123,7 +131,7 @@ fn numbers(figures: &[Figure]) -> String {
 }
 
 /// HTML of a text.
-fn text(plain: &str) -> String {
+pub(crate) fn text(plain: &str) -> String {
     super::chart::escape(plain)
 }
 
@@ -256,6 +264,7 @@ fn sign(verdict: Verdict) -> (&'static str, &'static str) {
     match verdict {
         Verdict::Holds => ("holds", "✓"),
         Verdict::DoesNotHold => ("fails", "✗"),
+        Verdict::Undecided => ("open", "?"),
         Verdict::NotEnoughData => ("open", "–"),
     }
 }
@@ -283,7 +292,7 @@ fn evidence(body: &mut String, evidence: &[Evidence]) {
             setting = &item.setting;
             let _ = writeln!(body, "<tr><th colspan=\"3\">{}</th></tr>", text(setting));
         }
-        let numbers: Vec<String> = item
+        let mut numbers: Vec<String> = item
             .numbers
             .iter()
             .map(|number| {
@@ -295,7 +304,16 @@ fn evidence(body: &mut String, evidence: &[Evidence]) {
                 )
             })
             .collect();
-        let (class, sign) = if item.holds { ("holds", "✓ holds") } else { ("fails", "✗ fails") };
+        let (class, sign) = match (item.decided, item.holds) {
+            (false, _) => ("open", "? undecided"),
+            (true, true) => ("holds", "✓ holds"),
+            (true, false) => ("fails", "✗ fails"),
+        };
+        let margin = item.interval.map(|interval| {
+            let shown = with_interval(item.margin, Some(interval), [0, 3]);
+            format!("<span><em>margin</em> {shown}</span>")
+        });
+        numbers.extend(margin);
         let _ = writeln!(
             body,
             "<tr><td>{}</td><td class=\"numbers\">{}</td><td class=\"verdict {class}\">{sign}</td></tr>",

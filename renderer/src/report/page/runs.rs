@@ -1,9 +1,10 @@
 //! The table of all runs: statistics of every metric of `frames.csv`.
 
 use super::text;
+use crate::output::with_interval;
 use crate::report::format::{readable, significant};
 use crate::report::results::{ResultSet, Run, method_name};
-use crate::report::stats::Statistics;
+use crate::stats::{Interval, Statistics};
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
@@ -37,7 +38,8 @@ fn values(statistics: Statistics) -> [f64; 4] {
 pub fn write_runs_csv(out: impl Write, set: &ResultSet) -> io::Result<()> {
     let mut csv = csv::Writer::from_writer(out);
     let head = ["run", "setting", "method", "lighting", "frames", "metric"];
-    csv.write_record(head.into_iter().chain(STATISTICS.map(|(_, _, name)| name)))?;
+    let interval = ["mean_low", "mean_high"];
+    csv.write_record(head.into_iter().chain(STATISTICS.map(|(_, _, name)| name)).chain(interval))?;
     for run in &set.runs {
         for metric in metrics(set) {
             let Some(statistics) = Statistics::of(run.frames.values(metric)) else { continue };
@@ -49,7 +51,11 @@ pub fn write_runs_csv(out: impl Write, set: &ResultSet) -> io::Result<()> {
                 run.frames.numbers.len().to_string(),
                 metric.to_owned(),
             ];
-            csv.write_record(head.into_iter().chain(values(statistics).map(|value| significant(value, 9))))?;
+            let numbers = values(statistics).map(|value| significant(value, 9)).into_iter();
+            let interval = run.measured(metric).and_then(|mean| mean.interval());
+            let ends = Interval::ends(interval);
+            let ends = ends.map(|end| end.map_or(String::new(), |value| significant(value, 9)));
+            csv.write_record(head.into_iter().chain(numbers).chain(ends))?;
         }
     }
     csv.flush()
@@ -104,7 +110,12 @@ fn row(body: &mut String, run: &Run, metrics: &[&str]) {
             None => body.push('–'),
             Some(statistics) => {
                 for ((class, ..), value) in STATISTICS.iter().zip(values(statistics)) {
-                    let _ = write!(body, "<span class=\"{class}\">{}</span>", readable(value));
+                    let interval = run.measured(metric).and_then(|mean| mean.interval());
+                    let shown = match interval.filter(|_| *class == "mean") {
+                        Some(interval) => with_interval(value, Some(interval), [0, 3]),
+                        None => readable(value),
+                    };
+                    let _ = write!(body, "<span class=\"{class}\">{shown}</span>");
                 }
             }
         }

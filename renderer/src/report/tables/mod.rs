@@ -4,7 +4,7 @@ mod stereo;
 mod tests_of_lights;
 
 use super::results::{Run, metric};
-use super::stats;
+use crate::stats::{self, Interval, Measured};
 use std::io::{self, Write};
 
 /// A table of numbers under grouped headings.
@@ -70,6 +70,15 @@ fn mean(run: &Run, metric: &str) -> Option<f64> {
 /// Mean time from the list of visible clusters to the finished light lists, milliseconds.
 fn assignment(run: &Run) -> Option<f64> {
     Some(mean(run, metric::CLUSTER)? - mean(run, metric::VISIBILITY)?)
+}
+
+/// The ends of its 95 % interval, milliseconds.
+fn assignment_interval(run: &Run) -> [Option<f64>; 2] {
+    let parts = [metric::CLUSTER, metric::VISIBILITY].map(|metric| run.measured(metric));
+    let [Some(cluster), Some(visibility)] = parts else { return [None, None] };
+    let difference = Measured::combine([&cluster, &visibility], |[cluster, visibility]| cluster - visibility);
+    let interval = difference.interval();
+    Interval::ends(interval)
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! G6 to G8: steadiness, the bound of a cluster's fragments, growth with the lights.
 
-use crate::report::claim::{Findings, mean, milliseconds, number};
+use crate::report::claim::{Findings, Outcome, mean, milliseconds, number};
 use crate::report::results::{ResultSet, Run, Setting, TUNED, indi, lightings, method_name, metric};
-use crate::report::stats::{Statistics, slope};
+use crate::stats::{Statistics, slope};
 
 pub(super) fn steadiness(set: &ResultSet) -> Findings {
     let mut findings = Findings::default();
@@ -23,7 +23,8 @@ pub(super) fn steadiness(set: &ResultSet) -> Findings {
             let numbers = [("Persp 64", persp), ("Ortho 4", ortho), ("Displ 64 32", displ)];
             let numbers = numbers.map(|(name, value)| milliseconds(name, value)).to_vec();
             let comparison = format!("standard deviation of the frame's time, {}", lighting.label);
-            findings.compare(run, comparison, numbers, displ < persp && displ < ortho);
+            let outcome = Outcome::above(persp, displ).and(Outcome::above(ortho, displ));
+            findings.compare(run, comparison, numbers, outcome);
         }
     }
     if findings.evidence.is_empty() {
@@ -38,7 +39,8 @@ pub(super) fn fragments(set: &ResultSet) -> Findings {
     for run in set.runs.iter().filter(|run| run.method == indi(TUNED[0]) && run.setting.msaa == 1) {
         let Some(most) = run.most_fragments else { continue };
         let comparison = format!("most fragments of a cluster, {}", run.lighting.label);
-        findings.compare(run, comparison, vec![number("most", most as f64)], most <= MOST);
+        let outcome = Outcome::within(most as f64, [0.0, MOST as f64]);
+        findings.compare(run, comparison, vec![number("most", most as f64)], outcome);
     }
     if findings.evidence.is_empty() {
         findings.lack("runs of Indi Persp 64 at one sample a pixel");
@@ -82,7 +84,7 @@ fn grows(
     let Some(exponent) = slope(&points) else { return };
     let comparison = format!("{what}, {}", method_name(runs[0].method, false));
     let numbers = vec![number("exponent", exponent), number("numbers of lights", points.len() as f64)];
-    findings.compare(runs[0], comparison, numbers, bounds[0] <= exponent && exponent <= bounds[1]);
+    findings.compare(runs[0], comparison, numbers, Outcome::within(exponent, bounds));
 }
 
 /// Mono settings; stereo ones where there is no mono.

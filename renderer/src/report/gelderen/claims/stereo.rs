@@ -2,7 +2,7 @@
 
 use super::is_far;
 use crate::methods::Space;
-use crate::report::claim::{Findings, mean, mean_where, milliseconds, number};
+use crate::report::claim::{Findings, Outcome, mean, mean_where, milliseconds, number};
 use crate::report::gelderen::flies_the_street;
 use crate::report::results::{ResultSet, Run, Setting, TUNED, encl, indi, method_name, metric};
 
@@ -43,7 +43,12 @@ pub(super) fn visible_clusters(set: &ResultSet) -> Findings {
             let Some([by_indi, by_encl]) = pair.means(metric::VISIBLE, |_| true) else { continue };
             let ratio = by_encl / by_indi;
             let numbers = vec![number("Indi", by_indi), number("Encl", by_encl), number("ratio", ratio)];
-            findings.compare(pair.indi, pair.name("visible clusters"), numbers, (0.4..=0.6).contains(&ratio));
+            findings.compare(
+                pair.indi,
+                pair.name("visible clusters"),
+                numbers,
+                Outcome::within(ratio, [0.4, 0.6]),
+            );
         }
     }
     needs_pairs(&mut findings);
@@ -101,7 +106,7 @@ fn lower(findings: &mut Findings, pair: &Pair<'_>, metric: &str, what: &str) {
         make("Encl".to_owned(), by_encl),
         number("ratio", by_encl / by_indi),
     ];
-    findings.compare(pair.indi, pair.name(what), numbers, by_encl < by_indi);
+    findings.compare(pair.indi, pair.name(what), numbers, Outcome::above(by_indi, by_encl));
 }
 
 /// Compares the saving at far geometry with that elsewhere; whether there were data to.
@@ -113,7 +118,12 @@ fn saves_more_afar(findings: &mut Findings, pair: &Pair<'_>) -> bool {
     let (Some(far), Some(near)) = (saving(true), saving(false)) else { return false };
     let numbers =
         vec![milliseconds("saved at frames 530 to 630", far), milliseconds("saved at the others", near)];
-    findings.compare(pair.indi, pair.name("time saved with far geometry"), numbers, far > near);
+    findings.compare(
+        pair.indi,
+        pair.name("time saved with far geometry"),
+        numbers,
+        Outcome::above(far, near),
+    );
     true
 }
 
@@ -130,9 +140,9 @@ fn saves_most_at_100_000(findings: &mut Findings, pairs: &[Pair<'_>]) {
     }
     let numbers =
         savings.iter().map(|(count, saved)| milliseconds(format!("saved at {count} lights"), *saved));
-    let holds = others().all(|(_, saved)| *saved < most);
+    let second = others().map(|(_, saved)| *saved).fold(f64::NEG_INFINITY, f64::max);
     let comparison = format!("time saved by lighting, {}", method_name(pairs[0].indi.method, false));
-    findings.compare(pairs[0].indi, comparison, numbers.collect(), holds);
+    findings.compare(pairs[0].indi, comparison, numbers.collect(), Outcome::above(most, second));
 }
 
 fn needs_pairs(findings: &mut Findings) {

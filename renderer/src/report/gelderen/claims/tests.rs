@@ -3,7 +3,7 @@
 use super::{CLAIMS, is_far};
 use crate::report::claim::{self, Claim, Verdict};
 use crate::report::results::{Run, metric};
-use crate::report::testing::{run, set};
+use crate::report::testing::{run, set, timed};
 
 fn check(runs: Vec<Run>) -> Vec<Claim> {
     claim::check(&CLAIMS, &set(runs))
@@ -62,6 +62,32 @@ fn clustering_time_needs_all_three_parts() {
     assert_eq!(verdict("G2", pair(1000, 1.0, 2.0).to_vec()), Verdict::NotEnoughData);
     assert_eq!(verdict("G2", [pair(1000, 1.0, 0.5), pair(100_000, 2.0, 3.0)].concat()), Verdict::DoesNotHold);
     assert_eq!(verdict("G2", pair(1000, -1.0, -1.0).to_vec()), Verdict::DoesNotHold);
+}
+
+#[test]
+fn a_margin_within_the_noise_of_the_runs_is_undecided() {
+    let time = |method: &str, ms: f64, factors| {
+        timed(flat(method, 2, 1000, metric::CLUSTER, ms), metric::CLUSTER, factors)
+    };
+    let noisy = [1.0, 1.3, 1.1];
+    let compared = |by_encl: f64, factors: [[f64; 3]; 2]| {
+        let runs = [("indi-persp-64", 10.0), ("encl-persp-64", by_encl)];
+        let runs = runs.iter().zip(factors).map(|((method, ms), factors)| time(method, *ms, factors));
+        let evidence = claim("G2", runs.collect()).evidence;
+        evidence.into_iter().find(|evidence| evidence.comparison.starts_with("clustering time")).unwrap()
+    };
+    let close = compared(9.5, [noisy, [1.2, 1.0, 1.05]]);
+    assert!(close.holds && !close.decided && close.interval.unwrap().straddles(0.0), "{close:?}");
+    assert!((close.margin - 0.5).abs() < 1e-9);
+    let paired = compared(9.5, [noisy, noisy]);
+    assert!(paired.decided, "what both share in a run cancels: {paired:?}");
+    let steady = compared(9.5, [[1.0, 1.001, 1.002]; 2]);
+    assert!(steady.decided && steady.interval.is_some(), "{steady:?}");
+    let runs = vec![time("indi-persp-64", 10.0, noisy), time("encl-persp-64", 9.5, [1.2, 1.0, 1.05])];
+    assert_eq!(verdict("G2", runs), Verdict::Undecided);
+    let counts =
+        claim("G3", vec![time("indi-persp-64", 10.0, noisy), time("encl-persp-64", 5.0, noisy)]).evidence;
+    assert!(counts.iter().all(|evidence| evidence.decided && evidence.interval.is_none()));
 }
 
 #[test]

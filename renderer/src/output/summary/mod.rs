@@ -1,105 +1,20 @@
 //! The closing table: one row a method and lighting, with ratios to Indi Persp.
 
-use super::rows::FrameRow;
+mod columns;
+
+pub use columns::{Intervals, Values};
+pub(crate) use columns::{grouped, with_interval};
+
+use super::run_times::MeasuredTimes;
 use crate::config::{Axis, Labels, Role};
 use crate::methods::Method;
+use crate::stats::Interval;
+use columns::{COLUMNS, ratio_cell};
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 use serde::Serialize;
-use serde::ser::{SerializeMap, Serializer};
+use serde::ser::Serializer;
 use std::fmt;
 use std::io::{self, Write};
-
-/// A column of numbers of the closing table: a mean over frames, and its ratio to the reference method's.
-struct Column {
-    /// Its name in CSV and JSON.
-    name: &'static str,
-    /// Its heading, on two lines.
-    heading: &'static str,
-    /// What it is of a frame; `None` where that was not measured.
-    of: fn(&FrameRow) -> Option<f64>,
-    kind: Kind,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
-    Count,
-    Milliseconds,
-}
-
-const COLUMNS: [Column; 6] = [
-    Column {
-        name: "visible_clusters",
-        heading: "visible\nclusters",
-        of: |row| Some(row.visible_clusters as f64),
-        kind: Kind::Count,
-    },
-    Column {
-        name: "light_indices",
-        heading: "light\nindices",
-        of: |row| Some(row.light_indices as f64),
-        kind: Kind::Count,
-    },
-    Column {
-        name: "lighting_computations",
-        heading: "lighting\ncomputations",
-        of: |row| Some(row.lighting_computations as f64),
-        kind: Kind::Count,
-    },
-    Column {
-        name: "clustering_ms",
-        heading: "clustering\nms",
-        of: |row| row.gpu_ms_cluster,
-        kind: Kind::Milliseconds,
-    },
-    Column {
-        name: "shading_ms",
-        heading: "shading\nms",
-        of: |row| row.gpu_ms_shade,
-        kind: Kind::Milliseconds,
-    },
-    Column { name: "total_ms", heading: "total\nms", of: |row| row.gpu_ms_frame, kind: Kind::Milliseconds },
-];
-
-/// A number for each column of the closing table: means over the frames of one run, or their ratios to those of the
-/// reference method. `None` where nothing was measured, or a ratio would be to nothing.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Values([Option<f64>; COLUMNS.len()]);
-
-impl Values {
-    /// Means over frames.
-    pub fn mean(rows: &[FrameRow]) -> Self {
-        Self(COLUMNS.map(|column| mean(rows.iter().filter_map(column.of))))
-    }
-
-    /// Its value in the column of a name.
-    pub fn get(&self, name: &str) -> Option<f64> {
-        COLUMNS.iter().zip(self.0).find(|(column, _)| column.name == name).and_then(|(_, value)| value)
-    }
-
-    /// The ratios to `reference`.
-    fn over(&self, reference: &Self) -> Self {
-        Self(std::array::from_fn(|place| match (self.0[place], reference.0[place]) {
-            (Some(value), Some(reference)) if reference != 0.0 => Some(value / reference),
-            _ => None,
-        }))
-    }
-}
-
-impl Serialize for Values {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(COLUMNS.len()))?;
-        for (column, value) in COLUMNS.iter().zip(self.0) {
-            map.serialize_entry(column.name, &value)?;
-        }
-        map.end()
-    }
-}
-
-/// The mean; `None` of nothing.
-fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let (sum, count) = values.fold((0.0, 0_u32), |(sum, count), value| (sum + value, count + 1));
-    (count > 0).then(|| sum / f64::from(count))
-}
 
 /// One run as the table takes it.
 #[derive(Debug, Clone, PartialEq)]
@@ -112,6 +27,8 @@ pub struct RunMeans {
     pub frames: usize,
     /// The means.
     pub means: Values,
+    /// The times among them, with their noise.
+    pub times: MeasuredTimes,
 }
 
 /// One method under one lighting in one scene.
@@ -129,6 +46,12 @@ pub struct SummaryRow {
     pub reference: String,
     /// The ratios.
     pub ratios: Values,
+    /// How many temporal runs the times are over. Of one alone, intervals are over its frames.
+    pub runs: usize,
+    /// Intervals of times.
+    pub intervals: Intervals,
+    /// Intervals of ratios of times, paired by frame and run.
+    pub ratio_intervals: Intervals,
 }
 
 /// The closing table of a replay.
@@ -149,6 +72,9 @@ impl Summary {
                 means: run.means,
                 reference: reference.method.to_string(),
                 ratios: run.means.over(&reference.means),
+                runs: run.times.runs,
+                intervals: Intervals::of(&run.times),
+                ratio_intervals: Intervals::of_ratios(&run.times, &reference.times),
             }
         });
         Self { rows: rows.collect() }
@@ -163,7 +89,8 @@ impl Summary {
         Axis::told().filter(needed).collect()
     }
 
-    /// Writes the table as CSV: what names a row, means, then the reference, then ratios.
+    /// Writes the table as CSV: what names a row, means, the reference, ratios; then how many temporal runs there were, and
+    /// the ends of the intervals of times and of their ratios.
     ///
     /// # Errors
     /// The writer fails.
@@ -173,13 +100,28 @@ impl Summary {
         let header = naming.iter().map(|axis| axis.column.to_owned()).chain(["frames".to_owned()]);
         let means = COLUMNS.map(|column| column.name.to_owned());
         let ratios = COLUMNS.map(|column| format!("{}_ratio", column.name));
-        csv.write_record(header.chain(means).chain(["reference".to_owned()]).chain(ratios))?;
+        let timed = || COLUMNS.iter().filter(|column| column.time.is_some());
+        let ends = |what: &'static str| {
+            timed().flat_map(move |column| ["low", "high"].map(|end| format!("{}{what}_{end}", column.name)))
+        };
+        let intervals = ["runs".to_owned()].into_iter().chain(ends("")).chain(ends("_ratio"));
+        csv.write_record(header.chain(means).chain(["reference".to_owned()]).chain(ratios).chain(intervals))?;
         for row in &self.rows {
             let names =
                 naming.iter().map(|axis| row.labels.get(axis).to_owned()).chain([row.frames.to_string()]);
-            let means = COLUMNS.iter().zip(row.means.0).map(|(column, mean)| column.kind.cell(mean));
-            let ratios = row.ratios.0.map(|ratio| Kind::Milliseconds.cell(ratio));
-            csv.write_record(names.chain(means).chain([row.reference.clone()]).chain(ratios))?;
+            let means = row.means.iter().map(|(column, mean)| column.cell(mean));
+            let ratios = row.ratios.iter().map(|(_, ratio)| ratio_cell(ratio));
+            let intervals = [row.intervals, row.ratio_intervals];
+            let ends = intervals.iter().flat_map(|intervals| {
+                timed().flat_map(|column| {
+                    let interval = intervals.get(column.name);
+                    Interval::ends(interval).map(ratio_cell)
+                })
+            });
+            let runs = [row.runs.to_string()];
+            csv.write_record(
+                names.chain(means).chain([row.reference.clone()]).chain(ratios).chain(runs).chain(ends),
+            )?;
         }
         csv.flush()
     }
@@ -204,30 +146,6 @@ fn is_indi_persp(method: &Method) -> bool {
     method.kind().name == "indi-persp"
 }
 
-impl Kind {
-    /// A cell of the CSV.
-    fn cell(self, value: Option<f64>) -> String {
-        let digits = match self {
-            Self::Count => 3,
-            Self::Milliseconds => 6,
-        };
-        value.map(|value| format!("{value:.digits$}")).unwrap_or_default()
-    }
-
-    /// A number with its ratio, for people.
-    fn shown(self, value: Option<f64>, ratio: Option<f64>) -> String {
-        let Some(value) = value else { return "-".into() };
-        let value = match self {
-            Self::Count => grouped(value.round() as u64),
-            Self::Milliseconds => format!("{value:.3}"),
-        };
-        match ratio {
-            Some(ratio) => format!("{value} ({ratio:.2})"),
-            None => format!("{value}    -  "),
-        }
-    }
-}
-
 /// Lines above, below and under the header, none between rows: characters in the order of comfy-table's presets.
 pub(crate) const TABLE_LINES: &str = "  ── ══      ──    ";
 
@@ -240,8 +158,13 @@ impl fmt::Display for Summary {
         let names = naming.iter().map(|axis| axis.name);
         table.set_header(names.chain(COLUMNS.map(|column| column.heading)));
         for row in &self.rows {
-            let values = COLUMNS.iter().zip(row.means.0.into_iter().zip(row.ratios.0));
-            let cells = values.map(|(column, (value, ratio))| column.kind.shown(value, ratio));
+            let cells = COLUMNS.iter().map(|column| {
+                let name = column.name;
+                column.shown(
+                    (row.means.get(name), row.intervals.get(name)),
+                    (row.ratios.get(name), row.ratio_intervals.get(name)),
+                )
+            });
             table.add_row(naming.iter().map(|axis| row.labels.get(axis).to_owned()).chain(cells));
         }
         for (column, index) in table.column_iter_mut().zip(0..) {
@@ -251,11 +174,33 @@ impl fmt::Display for Summary {
         for line in table.lines() {
             writeln!(f, "{}", line.trim_end())?;
         }
-        write!(f, "Means over frames; in brackets the ratio to {}.", self.references())
+        write!(
+            f,
+            "Means over frames; in brackets the ratio to {}.{}",
+            self.references(),
+            self.about_intervals()
+        )
     }
 }
 
 impl Summary {
+    /// What `±` means in the table; nothing where there is none.
+    fn about_intervals(&self) -> String {
+        let with =
+            self.rows.iter().filter(|row| row.intervals.iter().any(|(_, interval)| interval.is_some()));
+        let runs: std::collections::BTreeSet<usize> = with.map(|row| row.runs).collect();
+        let list = runs.iter().map(usize::to_string).collect::<Vec<_>>().join(" or ");
+        match (runs.first(), runs.last()) {
+            (Some(_), Some(1)) => {
+                " ± is half the 95 % interval over frames alone: one temporal run tells nothing of \
+                                   the noise of measuring."
+                    .into()
+            }
+            (Some(_), Some(_)) => format!(" ± is half the 95 % interval by {list} temporal runs."),
+            _ => String::new(),
+        }
+    }
+
     /// The reference methods, each once.
     fn references(&self) -> String {
         let mut names: Vec<&str> = Vec::new();
@@ -272,17 +217,4 @@ impl Summary {
         let ways = several(Role::Way);
         names.join(" and ") + lights + if ways { ", by its first way and test" } else { "" }
     }
-}
-
-/// A whole number with a space between thousands.
-pub(crate) fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(' ');
-        }
-        text.push(digit);
-    }
-    text
 }

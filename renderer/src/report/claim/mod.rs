@@ -2,12 +2,16 @@
 //!
 //! A claim is a handful of comparisons, each with the numbers behind it. It holds where every comparison that could be
 //! made holds and all it needs were made; it does not hold where one fails. Criteria are fixed before any data.
+//! How far a comparison is from failing is its margin. Times have noise, so the margin has an interval ([`repeats`]), and
+//! where that straddles 0 the comparison is undecided. Counts repeat exactly.
 //! Runs by different ways of assignment are never compared with each other: the verdict is of the thesis's own way, or
 //! else the first there is, and claims that others bear on have theirs beside it.
 
+mod repeats;
+
 use super::results::{ResultSet, Run};
-use super::stats;
 use super::way::Way;
+use crate::stats::{self, Interval};
 use serde::Serialize;
 
 /// What the data say of a claim.
@@ -19,7 +23,10 @@ pub enum Verdict {
     /// A comparison fails.
     #[serde(rename = "does not hold")]
     DoesNotHold,
-    /// None fails, and some could not be made.
+    /// None fails, and noise leaves open whether one does: more temporal runs may tell.
+    #[serde(rename = "undecided")]
+    Undecided,
+    /// None fails or is open, and some could not be made.
     #[serde(rename = "not enough data")]
     NotEnoughData,
 }
@@ -67,8 +74,41 @@ pub struct Evidence {
     pub comparison: String,
     /// The numbers, by name.
     pub numbers: Vec<Number>,
+    /// Whether it holds by the numbers as they are.
+    pub holds: bool,
+    /// How far it is from failing, or, negative, from holding: the distance of what is compared to its bound.
+    pub margin: f64,
+    /// From where to where the margin lies in 95 % of repetitions. `None` of counts, and where a run was timed fewer than
+    /// twice.
+    pub interval: Option<Interval>,
+    /// Whether the margin lies on one side of 0 as far as noise tells.
+    pub decided: bool,
+}
+
+/// What a comparison comes to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outcome {
     /// Whether it holds.
     pub holds: bool,
+    /// How far it is from changing that: positive where it holds.
+    pub margin: f64,
+}
+
+impl Outcome {
+    /// Of the claim that a number is above another.
+    pub fn above(value: f64, bound: f64) -> Self {
+        Self { holds: value > bound, margin: value - bound }
+    }
+
+    /// Of the claim that a number lies in a range, its ends included.
+    pub fn within(value: f64, [low, high]: [f64; 2]) -> Self {
+        Self { holds: low <= value && value <= high, margin: (value - low).min(high - value) }
+    }
+
+    /// Of the claim that both hold.
+    pub fn and(self, other: Self) -> Self {
+        Self { holds: self.holds && other.holds, margin: self.margin.min(other.margin) }
+    }
 }
 
 /// A named number.
@@ -93,8 +133,11 @@ pub struct Findings {
 
 impl Findings {
     /// Takes a comparison that `run` was part of.
-    pub fn compare(&mut self, run: &Run, comparison: String, numbers: Vec<Number>, holds: bool) {
-        self.evidence.push(Evidence { setting: run.setting.to_string(), comparison, numbers, holds });
+    pub fn compare(&mut self, run: &Run, comparison: String, numbers: Vec<Number>, outcome: Outcome) {
+        let Outcome { holds, margin } = outcome;
+        let setting = run.setting.to_string();
+        let (interval, decided) = (None, true);
+        self.evidence.push(Evidence { setting, comparison, numbers, holds, margin, interval, decided });
     }
 
     /// Takes a gap, once.
@@ -105,9 +148,17 @@ impl Findings {
         }
     }
 
+    fn by_way(self, way: &Way) -> ByWay {
+        let verdict = self.verdict();
+        let Self { evidence, missing } = self;
+        ByWay { way: way.to_string(), verdict, evidence, missing }
+    }
+
     fn verdict(&self) -> Verdict {
-        if self.evidence.iter().any(|evidence| !evidence.holds) {
+        if self.evidence.iter().any(|evidence| evidence.decided && !evidence.holds) {
             Verdict::DoesNotHold
+        } else if self.evidence.iter().any(|evidence| !evidence.decided) {
+            Verdict::Undecided
         } else if self.evidence.is_empty() || !self.missing.is_empty() {
             Verdict::NotEnoughData
         } else {
@@ -137,21 +188,26 @@ pub fn check<'a>(stated: impl IntoIterator<Item = &'a Stated>, set: &ResultSet) 
     if sets.is_empty() {
         sets.push(Default::default());
     }
-    stated.into_iter().map(|stated| check_one(stated, &sets)).collect()
+    let stated: Vec<&Stated> = stated.into_iter().collect();
+    let judge = |(way, set): &(Way, ResultSet)| -> Vec<ByWay> {
+        repeats::findings(&stated, set).into_iter().map(|findings| findings.by_way(way)).collect()
+    };
+    let judged: Vec<Vec<ByWay>> = sets.iter().map(judge).collect();
+    let claim = |(place, stated): (usize, &&Stated)| {
+        stated.as_claim(judged.iter().map(|claims| claims[place].clone()).collect())
+    };
+    stated.iter().enumerate().map(claim).collect()
 }
 
-fn check_one(stated: &Stated, sets: &[(Way, ResultSet)]) -> Claim {
-    let by_way = |(way, set): &(Way, ResultSet)| {
-        let findings = (stated.find)(set);
-        let verdict = findings.verdict();
-        let Findings { evidence, missing } = findings;
-        ByWay { way: way.to_string(), verdict, evidence, missing }
-    };
-    let ByWay { way, verdict, evidence, missing } = by_way(&sets[0]);
-    let others = sets[1..].iter().filter(|_| stated.of_ways).map(by_way);
-    let other_ways = others.filter(|found| !found.evidence.is_empty()).collect();
-    let Stated { id, claim, criterion, .. } = *stated;
-    Claim { id, claim, criterion, verdict, evidence, missing, way, other_ways }
+impl Stated {
+    /// By what each way says of it, the first of which decides.
+    fn as_claim(&self, mut ways: Vec<ByWay>) -> Claim {
+        let others = ways.split_off(1).into_iter();
+        let other_ways = others.filter(|found| self.of_ways && !found.evidence.is_empty()).collect();
+        let ByWay { way, verdict, evidence, missing } = ways.remove(0);
+        let Self { id, claim, criterion, .. } = *self;
+        Claim { id, claim, criterion, verdict, evidence, missing, way, other_ways }
+    }
 }
 
 impl std::fmt::Display for Verdict {
@@ -159,6 +215,7 @@ impl std::fmt::Display for Verdict {
         f.pad(match self {
             Self::Holds => "holds",
             Self::DoesNotHold => "does not hold",
+            Self::Undecided => "undecided",
             Self::NotEnoughData => "not enough data",
         })
     }

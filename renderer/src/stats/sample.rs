@@ -1,4 +1,4 @@
-//! Statistics over the frames of a run.
+//! Statistics of values.
 
 /// Mean, median, 95th percentile and standard deviation of a sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,7 +38,7 @@ pub fn mean(values: impl IntoIterator<Item = f64>) -> Option<f64> {
 }
 
 /// The value below which `fraction` of the ascending, non-empty `sorted` lies, linear between neighbours.
-fn percentile(sorted: &[f64], fraction: f64) -> f64 {
+pub(super) fn percentile(sorted: &[f64], fraction: f64) -> f64 {
     let place = fraction * (sorted.len() - 1) as f64;
     let (low, high) = (place.floor() as usize, place.ceil() as usize);
     sorted[low] + (sorted[high] - sorted[low]) * (place - low as f64)
