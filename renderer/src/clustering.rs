@@ -12,8 +12,8 @@ use ash::vk;
 use std::ops::{Index, Range};
 use std::sync::Arc;
 
-/// Frames in flight.
-pub const SLOTS: usize = 2;
+/// How many frames may be in flight at once; each has a slot of its own.
+pub const FRAME_SLOTS: usize = 2;
 
 /// Smallest buffer made, so that every binding has one.
 const MIN_BUFFER: u64 = 256;
@@ -48,14 +48,14 @@ impl Index<BufferName> for ClusteringBuffers {
 }
 
 /// A buffer that all clusterings share, as each frame in flight has it.
-pub type SharedBuffer<'a> = (BufferName, [&'a Buffer; SLOTS]);
+pub type SharedBuffer<'a> = (BufferName, [&'a Buffer; FRAME_SLOTS]);
 
 /// One clustering on the device.
 pub struct Clustering {
     /// What shaders fill.
     pub buffers: ClusteringBuffers,
     /// What the host writes for each frame, one per frame in flight, mapped.
-    pub host: [ClusteringBuffers; SLOTS],
+    pub host: [ClusteringBuffers; FRAME_SLOTS],
     /// The views that look lights up here.
     pub views: Range<usize>,
     /// Clusters of this frame's grid.
@@ -64,8 +64,8 @@ pub struct Clustering {
     pub word_count: u32,
     /// Most visible clusters that fit.
     pub visible_capacity: u32,
-    handles: [[vk::Buffer; BUFFER_COUNT]; SLOTS],
-    sets: [Vec<vk::DescriptorSet>; SLOTS],
+    handles: [[vk::Buffer; BUFFER_COUNT]; FRAME_SLOTS],
+    sets: [Vec<vk::DescriptorSet>; FRAME_SLOTS],
     empty: BufferSet,
     pools: Vec<DescriptorSets>,
     texels: Texels,
@@ -101,7 +101,7 @@ impl Clustering {
             cluster_count: 0,
             word_count: 0,
             visible_capacity: sizes.capacities.visible_clusters,
-            sets: [const { vec![] }; SLOTS],
+            sets: [const { vec![] }; FRAME_SLOTS],
             empty: empty(sizes),
             pools: vec![],
             texels,
@@ -116,7 +116,7 @@ impl Clustering {
         let most = pipelines.iter().map(|pipeline| pipeline.number + 1).max().unwrap_or(0);
         for (slot, sets) in self.sets.iter_mut().enumerate() {
             sets.resize(most.max(sets.len()), vk::DescriptorSet::null());
-            for (pipeline, made) in pipelines.iter().zip(pool.sets.chunks(SLOTS)) {
+            for (pipeline, made) in pipelines.iter().zip(pool.sets.chunks(FRAME_SLOTS)) {
                 context.name(made[slot], &pipeline.name);
                 write(context, made[slot], pipeline, &self.handles[slot], &self.texels.handles);
                 sets[pipeline.number] = made[slot];
@@ -126,7 +126,7 @@ impl Clustering {
         Ok(())
     }
 
-    /// What passes bind in the frame in flight `slot`.
+    /// What passes bind for the frame in flight in `slot`.
     pub fn bound(&self, slot: usize) -> BoundBuffers<'_> {
         BoundBuffers { handles: &self.handles[slot], sets: &self.sets[slot], empty: self.empty }
     }
@@ -162,10 +162,11 @@ fn all_buffers<'a>(
 
 /// Sets for the frames in flight of each pipeline, one behind the other.
 fn allocate(context: &Arc<Context>, pipelines: &[Arc<Pipeline>]) -> Result<DescriptorSets> {
-    let layouts: Vec<_> = pipelines.iter().flat_map(|pipeline| [pipeline.layout.buffers; SLOTS]).collect();
+    let layouts: Vec<_> =
+        pipelines.iter().flat_map(|pipeline| [pipeline.layout.buffers; FRAME_SLOTS]).collect();
     let kinds = View::ALL.map(|view| {
         let uses = pipelines.iter().flat_map(|pipeline| pipeline.uses().views.keys());
-        (view.descriptor(), (SLOTS * uses.filter(|used| used.1 == view).count()) as u32)
+        (view.descriptor(), (FRAME_SLOTS * uses.filter(|used| used.1 == view).count()) as u32)
     });
     DescriptorSets::of(context, "clustering", &layouts, &kinds)
 }

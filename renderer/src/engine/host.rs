@@ -37,7 +37,7 @@ impl Engine {
 
     /// What each view draws, or in which order.
     fn write_draws(&self, session: &mut Session, slot: usize, plan: &FramePlan) {
-        let this = &mut session.slots[slot];
+        let this = &mut session.frame_slots[slot];
         this.mirrored.clear();
         this.mirrored.extend(plan.views.iter().map(|view| view.pose.mirror.is_some()));
         match self.culling {
@@ -99,7 +99,7 @@ impl Engine {
         for (view, number) in views.iter().zip(clustering.views.clone()) {
             let near = view.relative_to(origin);
             let data = view_data(&near, grid.as_ref(), self.resolution, session.scene.reach);
-            session.slots[slot].views.write((number * size_of_val(&data)) as u64, &[data]);
+            session.frame_slots[slot].views.write((number * size_of_val(&data)) as u64, &[data]);
         }
     }
 }

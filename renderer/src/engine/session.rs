@@ -1,10 +1,10 @@
 //! What all runs of a replay share: device, scene, render targets, frames in flight.
 
-use super::Slot;
+use super::FrameSlot;
 use super::requirements::check_device;
 use super::targets::make_targets;
 use crate::buffers::BufferName;
-use crate::clustering::{SLOTS, make_buffer};
+use crate::clustering::{FRAME_SLOTS, make_buffer};
 use crate::config::Config;
 use crate::draw_list::Batches;
 use crate::draw_slots::DrawSlots;
@@ -24,8 +24,8 @@ use std::sync::Arc;
 
 /// Device, scene, targets and frames in flight of a replay.
 pub struct Session {
-    /// Frames in flight; before everything they use, so that they end first.
-    pub slots: [Slot; SLOTS],
+    /// Room for the frames in flight; before everything that these use, so that they end first.
+    pub frame_slots: [FrameSlot; FRAME_SLOTS],
     /// What each view is rendered into.
     pub targets: Vec<ViewTargets>,
     _depth_sets: DescriptorSets,
@@ -63,9 +63,9 @@ impl Session {
         let gpu_scene = GpuScene::new(&context, &layouts, scene, (&batches, &draw_slots))?;
         let depth_sets = DescriptorSets::new(&context, "depth", layouts.depth, &DEPTH_SET, views)?;
         Ok(Self {
-            slots: [
-                Slot::new(&context, views, draw_slots.counts)?,
-                Slot::new(&context, views, draw_slots.counts)?,
+            frame_slots: [
+                FrameSlot::new(&context, views, draw_slots.counts)?,
+                FrameSlot::new(&context, views, draw_slots.counts)?,
             ],
             targets: make_targets(&context, config, &depth_sets.sets)?,
             _depth_sets: depth_sets,

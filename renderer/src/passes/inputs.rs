@@ -166,7 +166,7 @@ pub struct Frame<'a> {
     pub states: &'a Buffer,
     /// Width and height of each view, pixels.
     pub resolution: [u32; 2],
-    /// Which of the frames in flight this is.
+    /// Slot of the frame in flight that is recorded.
     pub slot: usize,
 }
 

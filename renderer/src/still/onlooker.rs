@@ -102,7 +102,7 @@ impl<'a> Onlooker<'a> {
         let (view, lookup, clusterings) = match self.camera {
             Camera::View(view) => (view, 0, vec![sharing.clustering_of(view)]),
             Camera::BirdsEye | Camera::Placed(_) => {
-                let slot = &mut session.slots[SLOT];
+                let slot = &mut session.frame_slots[SLOT];
                 slot.mirrored[0] = false;
                 let near = eye.relative_to(origin);
                 let data = view_data(&near, None, self.run.resolution, session.scene.reach);

@@ -10,7 +10,7 @@ use crate::vk::Buffer;
 pub struct Drawing<'a> {
     /// With what.
     pub pipelines: &'a DebugPipelines,
-    /// The slot of the camera among the views.
+    /// Index of the camera among the views.
     pub view: usize,
     /// Which of [`DebugPipelines::pixel_clusters`] looks pixels up; `None` where there are no clusters.
     pub lookup: Option<usize>,

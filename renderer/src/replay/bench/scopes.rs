@@ -89,7 +89,7 @@ fn least_times(
 /// Milliseconds of the outermost scope, which is the frame.
 fn frame_time(case: &TimedFrame<'_>, session: &mut Session, engine: &mut Engine) -> Result<f64> {
     case.render(session, engine)?;
-    let frame = session.slots[SLOT].timestamps.read()?.next();
+    let frame = session.frame_slots[SLOT].timestamps.read()?.next();
     Ok(frame.map_or(f64::NAN, |(gpu_ms, _)| gpu_ms))
 }
 

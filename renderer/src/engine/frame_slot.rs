@@ -1,4 +1,4 @@
-//! One frame in flight.
+//! Room for one frame in flight, which frames take in turn.
 
 use crate::buffers::BufferName;
 use crate::clustering::make_buffer;
@@ -12,21 +12,21 @@ use crate::{Error, Result};
 use ash::vk;
 use std::sync::Arc;
 
-/// One frame in flight: commands, fence, queries and what the host writes and reads.
-pub struct Slot {
+/// Room for one frame in flight: commands, fence, queries and what the host writes and reads.
+pub struct FrameSlot {
     context: Arc<Context>,
     pool: vk::CommandPool,
-    /// Recorded anew each frame.
+    /// Command buffer, recorded anew each frame.
     pub commands: vk::CommandBuffer,
     /// Signalled when the frame has ended.
     pub fence: vk::Fence,
-    /// Its scopes' times.
+    /// Times of the scopes of the frame.
     pub timestamps: Timestamps,
     /// [`ViewData`] of all views, mapped.
     pub views: Buffer,
-    /// Of each view, whether it sees the world in a mirror.
+    /// Whether each view sees the world in a mirror.
     pub mirrored: Vec<bool>,
-    /// Each clustering's state, mapped.
+    /// State of each clustering, mapped.
     pub states: Buffer,
     /// What each view draws, and all at once, where the host culls.
     pub draw_lists: Vec<DrawList>,
@@ -36,8 +36,8 @@ pub struct Slot {
     pub draw_order: Buffer,
 }
 
-impl Slot {
-    /// One for so many views of a scene that draws so much.
+impl FrameSlot {
+    /// Room for a frame of `views` views of a scene that draws as much as `counts` says.
     ///
     /// # Errors
     /// The device is out of memory.
@@ -111,7 +111,7 @@ impl Slot {
     }
 }
 
-impl Drop for Slot {
+impl Drop for FrameSlot {
     fn drop(&mut self) {
         let device = &self.context.device;
         unsafe {
