@@ -12,7 +12,7 @@
 //! writes with `grid`, are the depths between the slices of a perspective grid, so that a fragment's slice and the planes
 //! that lights are tested against are the same numbers, whatever a device makes of logarithms.
 //!
-//! Where the device culls, `views`, `instances`, `draw_slots` and `draw_order` go to `draw_commands` and
+//! Where the device culls, `views`, `instances`, `drawables` and `draw_order` go to `draw_commands` and
 //! `drawn_instances` before all that (cull).
 //!
 //! All ways go to `list_lengths` by way of `light_masks` where these have room. Hierarchy and scatter first put the lights
@@ -185,10 +185,10 @@ buffers! {
         .texels("light", Element::Struct(LightData::INFO))
         .sized(|s| bytes::<LightData>(s.lights.into()));
     /// What is drawn of the scene where the device culls.
-    DrawSlots = buffer("draw_slots", Owner::Scene).storage("DrawCommand draw_slots[]");
+    Drawables = buffer("drawables", Owner::Scene).storage("DrawCommand drawables[]");
     /// How many of them there are, and the order of the transparent ones.
     DrawOrder = buffer("draw_order", Owner::Frame).storage("DrawCounts draw_counts; uint draw_order[]");
-    /// What stage `cull` lets through of the slots: a part for each view, and one for all at once.
+    /// What stage `cull` lets through of the drawables: a part for each view, and one for all at once.
     DrawCommands = buffer("draw_commands", Owner::Session).storage("DrawCommand draw_commands[]");
     /// The instances that those draw.
     DrawnInstances = buffer("drawn_instances", Owner::Session).storage("uint drawn_instances[]");

@@ -3,7 +3,7 @@
 use crate::Result;
 use crate::buffers::BufferName;
 use crate::draw_list::{Batch, Batches};
-use crate::draw_slots::DrawSlots;
+use crate::drawables::Drawables;
 use crate::gpu_interface::{InstanceData, MaterialData};
 use crate::layouts::{DescriptorSets, Layouts, MATERIAL_SET, MATERIAL_TEXTURES};
 use crate::placements::{Placement, near_vertices, placements};
@@ -28,8 +28,8 @@ pub struct GpuScene {
     /// No instance reaches farther from `origin`, metres.
     pub reach: f64,
     placements: Vec<Placement>,
-    /// What is drawn where the device culls, as [`DrawSlots::slots`] has it.
-    pub draw_slots: Buffer,
+    /// What is drawn where the device culls, as [`Drawables::all`] has it.
+    pub drawables: Buffer,
     /// What can be drawn at once.
     pub batches: Vec<Batch>,
     /// The textures of each material.
@@ -43,12 +43,12 @@ pub struct GpuScene {
 }
 
 impl GpuScene {
-    /// Uploads `scene`, its instances in the order of `batches`, with what `slots` draws of them.
+    /// Uploads `scene`, its instances in the order of `batches`, with what `drawables` draws of them.
     pub fn new(
         context: &Arc<Context>,
         layouts: &Layouts,
         scene: &Scene,
-        (batches, slots): (&Batches, &DrawSlots),
+        (batches, drawables): (&Batches, &Drawables),
     ) -> Result<Self> {
         let (materials, stride) = materials(context, &scene.materials)?;
         let placements = placements(scene, batches);
@@ -85,11 +85,11 @@ impl GpuScene {
             origin: DVec3::ZERO,
             reach: reach(&placements, DVec3::ZERO),
             placements,
-            draw_slots: Buffer::with_data(
+            drawables: Buffer::with_data(
                 context,
-                "draw_slots",
-                BufferName::DrawSlots.info().usage(),
-                &slots.slots,
+                "drawables",
+                BufferName::Drawables.info().usage(),
+                &drawables.all,
             )?,
             batches: batches.batches.clone(),
             material_sets: sets.sets.clone(),

@@ -1,8 +1,8 @@
 // Which instances a view may see, as the indirect commands that draw them.
 //
-// A thread takes a whole slot, so that its instances keep their order without a prefix sum. push.view is the view; where
+// A thread takes a whole drawable, so that its instances keep their order without a prefix sum. push.view is the view; where
 // push.step is over 1, it is the first of so many views that a pass draws at once. Their commands come behind those of
-// single views, hold no transparent slots, and draw what any view sees once for each view (see geometry/surface.vert).
+// single views, hold no transparent drawables, and draw what any view sees once for each view (see geometry/surface.vert).
 #version 460
 #include "generated/gpu_interface.glsl"
 
@@ -37,9 +37,9 @@ void main()
     uint command = gl_GlobalInvocationID.x;
     if (command >= surfaces + (at_once ? 0u : transparents))
         return;
-    uint slot = command < surfaces ? command : draw_order[push.view * transparents + command - surfaces];
+    uint drawable = command < surfaces ? command : draw_order[push.view * transparents + command - surfaces];
     uint list = at_once ? push.step : push.view;
-    DrawCommand draw = draw_slots[slot];
+    DrawCommand draw = drawables[drawable];
     uint first_drawn = list * draw_counts.instances + draw.first_instance;
     uint drawn = 0u;
     for (uint i = 0u; i < draw.instance_count; ++i) {

@@ -3,7 +3,7 @@
 use crate::buffers::BufferName;
 use crate::clustering::make_buffer;
 use crate::draw_list::DrawList;
-use crate::draw_slots::SlotOrder;
+use crate::drawables::DrawableOrder;
 use crate::gpu_interface::{DrawCounts, MAX_VIEWS, ViewData};
 use crate::pass::Timestamps;
 use crate::passes::readback::STATE_BYTES;
@@ -31,8 +31,8 @@ pub struct FrameSlot {
     /// What each view draws, and all at once, where the host culls.
     pub draw_lists: Vec<DrawList>,
     /// In which order each view draws, and all at once, where the device culls.
-    pub slot_orders: Vec<SlotOrder>,
-    /// [`DrawCounts`] and the transparent slots of all views in their order, mapped.
+    pub drawable_orders: Vec<DrawableOrder>,
+    /// [`DrawCounts`] and the transparent drawables of all views in their order, mapped.
     pub draw_order: Buffer,
 }
 
@@ -75,7 +75,7 @@ impl FrameSlot {
                 Memory::Readback,
             )?,
             draw_lists: vec![DrawList::default(); views + 1],
-            slot_orders: vec![SlotOrder::default(); views + 1],
+            drawable_orders: vec![DrawableOrder::default(); views + 1],
             draw_order: draw_order(context, views, counts)?,
         })
     }
@@ -123,7 +123,7 @@ impl Drop for FrameSlot {
     }
 }
 
-/// Counts, and room for the order of every view's transparent slots.
+/// Counts, and room for the order of every view's transparent drawables.
 fn draw_order(context: &Arc<Context>, views: usize, counts: DrawCounts) -> Result<Buffer> {
     let size = size_of::<DrawCounts>() + 4 * views * counts.transparents as usize;
     let buffer = make_buffer(context, BufferName::DrawOrder, size as u64, Memory::Upload)?;

@@ -51,10 +51,10 @@ impl Engine {
             }
             Culling::Gpu => {
                 let mut offset = size_of::<DrawCounts>() as u64;
-                for (view, order) in plan.views.iter().zip(&mut this.slot_orders) {
-                    order.update(&session.draw_slots, view);
-                    this.draw_order.write(offset, &order.slots);
-                    offset += size_of_val(order.slots.as_slice()) as u64;
+                for (view, order) in plan.views.iter().zip(&mut this.drawable_orders) {
+                    order.update(&session.drawables, view);
+                    this.draw_order.write(offset, &order.drawables);
+                    offset += size_of_val(order.drawables.as_slice()) as u64;
                 }
             }
         }

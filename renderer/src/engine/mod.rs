@@ -152,7 +152,7 @@ impl Engine {
             (BufferName::DrawOrder, slots.each_ref().map(|slot| &slot.draw_order)),
             (BufferName::Lights, [&self.lights; FRAME_SLOTS]),
             (BufferName::Instances, [&session.scene.instances; FRAME_SLOTS]),
-            (BufferName::DrawSlots, [&session.scene.draw_slots; FRAME_SLOTS]),
+            (BufferName::Drawables, [&session.scene.drawables; FRAME_SLOTS]),
             (BufferName::DrawCommands, [&session.draws.commands; FRAME_SLOTS]),
             (BufferName::DrawnInstances, [&session.draws.drawn_instances; FRAME_SLOTS]),
         ];
@@ -211,8 +211,8 @@ impl Engine {
             draws: match self.culling {
                 Culling::Cpu => Draws::Listed(&this.draw_lists),
                 Culling::Gpu => Draws::Indirect {
-                    slots: &session.draw_slots,
-                    orders: &this.slot_orders,
+                    drawables: &session.drawables,
+                    orders: &this.drawable_orders,
                     buffers: &session.draws,
                 },
             },

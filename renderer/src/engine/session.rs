@@ -7,7 +7,7 @@ use crate::buffers::BufferName;
 use crate::clustering::{FRAME_SLOTS, make_buffer};
 use crate::config::Config;
 use crate::draw_list::Batches;
-use crate::draw_slots::DrawSlots;
+use crate::drawables::Drawables;
 use crate::geometry::views::ViewSet;
 use crate::gpu_interface::{DrawCommand, DrawCounts, MAX_VIEWS};
 use crate::gpu_scene::GpuScene;
@@ -34,7 +34,7 @@ pub struct Session {
     /// Its instances in drawing order.
     pub batches: Batches,
     /// What is drawn of them where the device culls.
-    pub draw_slots: DrawSlots,
+    pub drawables: Drawables,
     /// What stage `cull` fills.
     pub draws: DrawBuffers,
     /// Pipelines made so far.
@@ -59,20 +59,20 @@ impl Session {
         let layouts = Arc::new(Layouts::new(&context)?);
         let shaders = shader_library(config)?;
         let batches = Batches::new(scene);
-        let draw_slots = DrawSlots::new(&batches);
-        let gpu_scene = GpuScene::new(&context, &layouts, scene, (&batches, &draw_slots))?;
+        let drawables = Drawables::new(&batches);
+        let gpu_scene = GpuScene::new(&context, &layouts, scene, (&batches, &drawables))?;
         let depth_sets = DescriptorSets::new(&context, "depth", layouts.depth, &DEPTH_SET, views)?;
         Ok(Self {
             frame_slots: [
-                FrameSlot::new(&context, views, draw_slots.counts)?,
-                FrameSlot::new(&context, views, draw_slots.counts)?,
+                FrameSlot::new(&context, views, drawables.counts)?,
+                FrameSlot::new(&context, views, drawables.counts)?,
             ],
             targets: make_targets(&context, config, &depth_sets.sets)?,
             _depth_sets: depth_sets,
             scene: gpu_scene,
             batches,
-            draws: draw_buffers(&context, views, draw_slots.counts)?,
-            draw_slots,
+            draws: draw_buffers(&context, views, drawables.counts)?,
+            drawables,
             store: PipelineStore::new(&context, &layouts, shaders, (view_set, drawn_sets(scene))),
             tracker: FrameTracker::default(),
             probe: Probe::new(&context.info.hardware),

@@ -167,7 +167,7 @@ gpu_struct! {
         pub first_index: u32,
         /// Added to every index.
         pub vertex_offset: i32,
-        /// Of a slot: into the instances. Of a command: into the drawn instances, times the views drawn at once.
+        /// A drawable's first of the instances; a command's first of the drawn instances, times the views drawn at once.
         pub first_instance: u32,
     }
 }
@@ -175,11 +175,11 @@ gpu_struct! {
 gpu_struct! {
     /// How much a scene draws where the device culls.
     pub struct DrawCounts {
-        /// Slots of opaque and masked geometry.
+        /// Drawables of opaque and masked geometry.
         pub surfaces: u32,
-        /// Slots of transparent geometry, behind those.
+        /// Drawables of transparent geometry, behind those of opaque and masked geometry.
         pub transparents: u32,
-        /// Instances of all slots.
+        /// Instances of all drawables.
         pub instances: u32,
     }
 }

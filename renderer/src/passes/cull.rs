@@ -13,14 +13,14 @@ pub fn record(r: &mut Recorder, frame: &Frame) {
 
 /// Fills the draw commands of some views: of each by itself, and of all at once where a pass draws them so.
 fn cull(r: &mut Recorder, frame: &Frame, eyes: Eyes) {
-    let Draws::Indirect { slots, .. } = &frame.draws else { return };
+    let Draws::Indirect { drawables, .. } = &frame.draws else { return };
     r.scope(eyes.stage("cull"), |r| {
         let mut dispatch = |eyes: Eyes| {
             let view = eyes.first();
             r.dispatch(&Dispatch {
                 pipeline: frame.pipelines.cull(),
                 buffers: frame.buffers_of_view(view),
-                size: Size::threads(slots.slots.len() as u32, CULL_GROUP),
+                size: Size::threads(drawables.all.len() as u32, CULL_GROUP),
                 reads: BufferSet::EMPTY,
                 writes: set(&[B::DrawCommands, B::DrawnInstances]),
                 depth: None,

@@ -284,11 +284,11 @@ fn draw_all(r: &Recorder, frame: &Frame, eyes: Eyes, (kind, state): (SurfaceKind
                 draw_run(r, frame, run, views);
             }
         }
-        Draws::Indirect { slots, orders, buffers } => {
-            let part = list * slots.slots.len();
-            for group in orders[list].groups(slots, kind) {
-                state.set(r, frame, group.batch);
-                draw_commands(r, &buffers.commands, part as u64 + u64::from(group.first), group.count);
+        Draws::Indirect { drawables, orders, buffers } => {
+            let part = list * drawables.all.len();
+            for draw in orders[list].multi_draws(drawables, kind) {
+                state.set(r, frame, draw.batch);
+                draw_commands(r, &buffers.commands, part as u64 + u64::from(draw.first), draw.count);
             }
         }
     }
@@ -371,7 +371,9 @@ impl Frame<'_> {
         let list = self.list_of(eyes);
         match &self.draws {
             Draws::Listed(lists) => !lists[list].runs(kind).is_empty(),
-            Draws::Indirect { slots, orders, .. } => !orders[list].groups(slots, kind).is_empty(),
+            Draws::Indirect { drawables, orders, .. } => {
+                !orders[list].multi_draws(drawables, kind).is_empty()
+            }
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::assign::{Assigner, Clusters, Marking};
 use crate::clustering::Clustering;
 use crate::draw_list::DrawList;
-use crate::draw_slots::{DrawSlots, SlotOrder};
+use crate::drawables::{DrawableOrder, Drawables};
 use crate::geometry::Sharing;
 use crate::gpu_scene::GpuScene;
 use crate::layouts::BoundBuffers;
@@ -107,7 +107,7 @@ impl Index<TargetName> for ViewTargets {
 
 /// What stage `cull` fills, a part for each view and one for all at once; shared by the frames in flight.
 pub struct DrawBuffers {
-    /// [`crate::gpu_interface::DrawCommand`], as many in each part as there are slots.
+    /// [`crate::gpu_interface::DrawCommand`], as many in each part as there are drawables.
     pub commands: Buffer,
     /// Instances that the commands draw.
     pub drawn_instances: Buffer,
@@ -120,9 +120,9 @@ pub enum Draws<'a> {
     /// Everything, by commands that stage `cull` fills, as many lists.
     Indirect {
         /// The scene's.
-        slots: &'a DrawSlots,
+        drawables: &'a Drawables,
         /// An order for each view.
-        orders: &'a [SlotOrder],
+        orders: &'a [DrawableOrder],
         /// The commands.
         buffers: &'a DrawBuffers,
     },
