@@ -17,7 +17,7 @@
 //!
 //! All ways go to `list_lengths` by way of `light_masks` where these have room. Hierarchy and scatter first put the lights
 //! that may meet a visible cluster into `candidates` (cull_lights: `block_bits`, `light_bits`); then the hierarchy makes
-//! `sort_items`, `digit_counts`, `tree_volumes`, `tree_lights` and `light_nodes`, scatter `groups`, `tile_groups` and
+//! `sort_items`, `digit_counts`, `tree_volumes`, `tree_lights` and `light_nodes`, scatter `groups`, `packet_groups` and
 //! `group_lights`.
 
 mod info;
@@ -158,11 +158,11 @@ buffers! {
     Groups = buffer("groups", Owner::Clustering)
         .storage("ClusterGroup groups[]")
         .sized(|s| bytes::<ClusterGroup>(s.groups()));
-    /// The group of each tile of lights.
-    TileGroups = buffer("tile_groups", Owner::Clustering)
-        .storage("uint tile_groups[]")
-        .sized(|s| bytes::<u32>(s.group_tiles()));
-    /// The candidates of each group, in whole tiles.
+    /// The group of each packet of lights.
+    PacketGroups = buffer("packet_groups", Owner::Clustering)
+        .storage("uint packet_groups[]")
+        .sized(|s| bytes::<u32>(s.group_packets()));
+    /// The candidates of each group, in whole packets.
     GroupLights = buffer("group_lights", Owner::Clustering)
         .storage("uint group_lights[]")
         .sized(|s| bytes::<u32>(s.group_lights()));

@@ -24,15 +24,15 @@ pub const SET_DEPTH: u32 = 2;
 /// Rendering cameras of a frame, at most: a uniform buffer of 16 KiB, which every device binds, holds them.
 pub const MAX_VIEWS: u32 = 32;
 /// Threads of a workgroup of the prefix sum.
-pub const SCAN_GROUP: u32 = 256;
+pub const SCAN_WORKGROUP: u32 = 256;
 /// Items that such a workgroup takes.
 pub const SCAN_BLOCK: u32 = 1024;
-/// Threads of a workgroup of the assignment passes; visible clusters of a group, lights of a tile.
-pub const ASSIGN_GROUP: u32 = 64;
+/// Threads of a workgroup of the assignment passes; visible clusters of a group, lights of a packet.
+pub const ASSIGN_WORKGROUP: u32 = 64;
 /// Threads of a workgroup of culling.
-pub const CULL_GROUP: u32 = 64;
-/// Tiles along x of a dispatch; more go along y.
-pub const TILE_ROW: u32 = 1 << 15;
+pub const CULL_WORKGROUP: u32 = 64;
+/// Packets along x of a dispatch; more go along y.
+pub const PACKET_ROW: u32 = 1 << 15;
 /// The same of lists that have a workgroup each.
 pub const LIST_ROW: u32 = 1 << 15;
 /// Blocks of clusters along x and y, at most; along z there are up to 32, a bit each.
@@ -87,10 +87,10 @@ const CONSTANTS: [(&str, u32); 28] = [
     ("SET_MATERIAL", SET_MATERIAL),
     ("SET_DEPTH", SET_DEPTH),
     ("MAX_VIEWS", MAX_VIEWS),
-    ("SCAN_GROUP", SCAN_GROUP),
+    ("SCAN_WORKGROUP", SCAN_WORKGROUP),
     ("SCAN_BLOCK", SCAN_BLOCK),
-    ("ASSIGN_GROUP", ASSIGN_GROUP),
-    ("TILE_ROW", TILE_ROW),
+    ("ASSIGN_WORKGROUP", ASSIGN_WORKGROUP),
+    ("PACKET_ROW", PACKET_ROW),
     ("LIST_ROW", LIST_ROW),
     ("BLOCK_COLUMNS", BLOCK_COLUMNS),
     ("BLOCK_EXTREMES", BLOCK_EXTREMES),
@@ -101,7 +101,7 @@ const CONSTANTS: [(&str, u32); 28] = [
     ("DISPATCH_UNMASKED", DISPATCH_UNMASKED),
     ("DISPATCH_MEET", DISPATCH_MEET),
     ("DISPATCH_MEET_AGAIN", DISPATCH_MEET_AGAIN),
-    ("CULL_GROUP", CULL_GROUP),
+    ("CULL_WORKGROUP", CULL_WORKGROUP),
     ("DISPATCH_SCAN", DISPATCH_SCAN),
     ("DISPATCH_GROUPS", DISPATCH_GROUPS),
     ("DISPATCH_SORT", DISPATCH_SORT),

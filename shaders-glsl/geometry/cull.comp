@@ -6,7 +6,7 @@
 #version 460
 #include "generated/gpu_interface.glsl"
 
-layout(local_size_x = CULL_GROUP) in;
+layout(local_size_x = CULL_WORKGROUP) in;
 
 // False only where the box lies wholly outside a plane.
 bool may_see(uint view, uint instance)

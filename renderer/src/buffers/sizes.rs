@@ -2,7 +2,7 @@
 
 use super::BufferName;
 use crate::assign::{self, Assigner, Clusters};
-use crate::gpu_interface::{ASSIGN_GROUP, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS};
+use crate::gpu_interface::{ASSIGN_WORKGROUP, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS};
 use crate::measure::Capacities;
 use crate::vk::{Limits, texel_bytes};
 use crate::{Error, Result};
@@ -79,7 +79,7 @@ impl ClusteringSizes {
 
     /// Groups of visible clusters that scatter makes.
     pub(super) fn groups(&self) -> u64 {
-        let groups = u64::from(self.capacities.visible_clusters.div_ceil(ASSIGN_GROUP));
+        let groups = u64::from(self.capacities.visible_clusters.div_ceil(ASSIGN_WORKGROUP));
         if self.assigner == Assigner::Scatter { groups } else { 0 }
     }
 
@@ -92,9 +92,9 @@ impl ClusteringSizes {
         }
     }
 
-    /// Tiles of those.
-    pub(super) fn group_tiles(&self) -> u64 {
-        self.group_lights() / u64::from(ASSIGN_GROUP)
+    /// Packets of those.
+    pub(super) fn group_packets(&self) -> u64 {
+        self.group_lights() / u64::from(ASSIGN_WORKGROUP)
     }
 
     /// Counts of the digits of all blocks of the sort.
@@ -118,7 +118,7 @@ impl ClusteringSizes {
         let groups = u64::from(limits.max_compute_work_group_count[0]);
         let entries = |words: u64| u32::try_from(words).unwrap_or(u32::MAX);
         Capacities {
-            visible_clusters: entries((words - 1).min(groups * u64::from(ASSIGN_GROUP))),
+            visible_clusters: entries((words - 1).min(groups * u64::from(ASSIGN_WORKGROUP))),
             light_indices: entries(words.min(limits.max_texel_buffer_elements)),
         }
     }
@@ -151,11 +151,11 @@ impl ClusteringSizes {
         }
         let [most_x, most_y, _] = limits.max_compute_work_group_count.map(u64::from);
         let (lights, visible) = (self.lights, self.capacities.visible_clusters);
-        let tiles = u64::from(lights.div_ceil(ASSIGN_GROUP));
-        let groups = u64::from(visible.div_ceil(ASSIGN_GROUP));
+        let packets = u64::from(lights.div_ceil(ASSIGN_WORKGROUP));
+        let groups = u64::from(visible.div_ceil(ASSIGN_WORKGROUP));
         let blocks = self.scan_blocks();
         for (what, workgroups, most) in [
-            (format!("{lights} lights"), tiles, most_x.min(most_y)),
+            (format!("{lights} lights"), packets, most_x.min(most_y)),
             (format!("{visible} visible clusters"), groups, most_x),
             (format!("{} clusters", self.clusters), blocks, most_x),
         ] {

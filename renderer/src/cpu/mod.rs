@@ -40,7 +40,7 @@ pub use hierarchy::{Descent, Key, Node, Tree, build_nodes, descend, keys, sorted
 pub use lists::{FoundLists, read_masks, sort_lists};
 pub use mark::{DepthImage, Marks, mark};
 pub use scan::scan;
-pub use scatter::{Group, scatter, scatter_groups};
+pub use scatter::{ClusterGroup, scatter, scatter_groups};
 
 use crate::geometry::Grid;
 

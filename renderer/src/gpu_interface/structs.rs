@@ -57,7 +57,7 @@ gpu_struct! {
         pub index_capacity: u32,
         /// Words of light bits that fit, of all lists together.
         pub mask_capacity: u32,
-        /// Lights of groups that fit, a multiple of a tile's.
+        /// Lights of groups that fit, in whole packets.
         pub group_capacity: u32,
         /// Blocks a cluster, along each axis.
         pub block_scale: [f32; 3],
@@ -199,8 +199,8 @@ gpu_struct! {
         pub mask_words: u32,
         /// Whether those of all lists fit; 0 where lights are counted and sorted instead.
         pub masked: u32,
-        /// Tiles that scatter tests.
-        pub tiles: u32,
+        /// Packets of lights that scatter tests against a group of clusters each.
+        pub packets: u32,
         /// Whether the lights of groups are listed; 0 where that did not fit, and each group gets all candidates.
         pub listed: u32,
     }
@@ -215,8 +215,8 @@ gpu_struct! {
         pub lights: u32,
         /// How many of them are listed yet.
         pub listed: u32,
-        /// Its first tile.
-        pub first_tile: u32,
+        /// Index of the first packet of lights of the group.
+        pub first_packet: u32,
     }
 }
 

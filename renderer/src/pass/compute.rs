@@ -10,20 +10,20 @@ use ash::vk;
 #[derive(Debug, Clone, Copy)]
 pub enum Size {
     /// So many along x and y.
-    Groups(u32, u32),
-    /// As many as the device wrote into a slot of [`BufferName::Dispatches`].
+    Workgroups(u32, u32),
+    /// As many as the device wrote into the entry of [`BufferName::Dispatches`] with this index.
     Indirect(u32),
 }
 
 impl Size {
-    /// A thread for each of `items`, in workgroups of `group`.
-    pub fn threads(items: u32, group: u32) -> Self {
-        Self::Groups(items.div_ceil(group), 1)
+    /// A thread for each of `items`, in workgroups of `workgroup` threads along x.
+    pub fn threads(items: u32, workgroup: u32) -> Self {
+        Self::Workgroups(items.div_ceil(workgroup), 1)
     }
 
     /// A thread for each pixel, in workgroups of 8 by 8.
     pub fn pixels([width, height]: [u32; 2]) -> Self {
-        Self::Groups(width.div_ceil(8), height.div_ceil(8))
+        Self::Workgroups(width.div_ceil(8), height.div_ceil(8))
     }
 }
 
@@ -105,9 +105,9 @@ impl Recorder<'_> {
         }
         let (device, commands) = (&self.context.device, self.commands());
         match pass.size {
-            Size::Groups(x, y) => unsafe { device.cmd_dispatch(commands, x, y, 1) },
-            Size::Indirect(slot) => {
-                let offset = u64::from(slot) * size_of::<DispatchSize>() as u64;
+            Size::Workgroups(x, y) => unsafe { device.cmd_dispatch(commands, x, y, 1) },
+            Size::Indirect(index) => {
+                let offset = u64::from(index) * size_of::<DispatchSize>() as u64;
                 unsafe { device.cmd_dispatch_indirect(commands, dispatches, offset) };
             }
         }

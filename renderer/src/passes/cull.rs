@@ -3,7 +3,7 @@
 
 use super::inputs::{Draws, Eyes, Frame};
 use crate::buffers::{BufferName as B, BufferSet, set};
-use crate::gpu_interface::CULL_GROUP;
+use crate::gpu_interface::CULL_WORKGROUP;
 use crate::pass::{Dispatch, Push, Recorder, Size};
 
 /// Fills the draw commands of all views, as geometry passes draw them.
@@ -20,7 +20,7 @@ fn cull(r: &mut Recorder, frame: &Frame, eyes: Eyes) {
             r.dispatch(&Dispatch {
                 pipeline: frame.pipelines.cull(),
                 buffers: frame.buffers_of_view(view),
-                size: Size::threads(drawables.all.len() as u32, CULL_GROUP),
+                size: Size::threads(drawables.all.len() as u32, CULL_WORKGROUP),
                 reads: BufferSet::EMPTY,
                 writes: set(&[B::DrawCommands, B::DrawnInstances]),
                 depth: None,

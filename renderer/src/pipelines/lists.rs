@@ -115,8 +115,8 @@ pipelines! {
         list_candidates: Arc<Pipeline> = make.tests("cull/list_candidates.comp");
         /// Counts the candidates of each group of visible clusters, and lists them.
         scatter_groups: [Arc<Pipeline>; 2] = make.both("assign/scatter_groups.comp", "FILL_GROUPS");
-        /// Prefix sum of the tiles that the candidates of groups fill.
-        group_tiles: ScanPipelines = make.scan("SCAN_GROUPS");
+        /// Prefix sum of the packets that the candidates of groups fill.
+        group_packets: ScanPipelines = make.scan("SCAN_GROUPS");
         /// Counts the digits of each block of the sort.
         count_digits: Arc<Pipeline> = make.tests("build/count_digits.comp");
         /// Prefix sum of the digits' counts.

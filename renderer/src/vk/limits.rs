@@ -44,13 +44,13 @@ pub struct Limits {
     pub max_uniform_buffer_range: u64,
     /// Bytes of push constants.
     pub max_push_constants_size: u32,
-    /// Work groups of one dispatch, per axis.
+    /// Workgroups of one dispatch, per axis.
     pub max_compute_work_group_count: [u32; 3],
-    /// Invocations of a work group, per axis.
+    /// Invocations of a workgroup, per axis.
     pub max_compute_work_group_size: [u32; 3],
-    /// Invocations of a work group.
+    /// Invocations of a workgroup.
     pub max_compute_work_group_invocations: u32,
-    /// Bytes of shared memory of a work group.
+    /// Bytes of shared memory of a workgroup.
     pub max_compute_shared_memory: u32,
     /// Storage buffers that one shader stage may bind.
     pub max_per_stage_storage_buffers: u32,

@@ -231,17 +231,17 @@ fn scattering_equals_its_twin() {
         let state = culling.state();
         let groups = cpu::scatter_groups(&culling.visible(), &candidates);
         let words = culling.bench.download(BufferName::Groups, 6 * groups.len());
-        let tiles: u32 = groups.iter().map(cpu::Group::tiles).sum();
-        let tile_groups = culling.bench.download(BufferName::TileGroups, tiles.max(1) as usize);
-        let group_lights = culling.bench.download(BufferName::GroupLights, 64 * tiles.max(1) as usize);
-        assert_eq!((state.tiles, state.listed), (tiles, 1), "case {case}");
+        let packets: u32 = groups.iter().map(cpu::ClusterGroup::packets).sum();
+        let packet_groups = culling.bench.download(BufferName::PacketGroups, packets.max(1) as usize);
+        let group_lights = culling.bench.download(BufferName::GroupLights, 64 * packets.max(1) as usize);
+        assert_eq!((state.packets, state.listed), (packets, 1), "case {case}");
         for (number, (group, w)) in (0u32..).zip(groups.iter().zip(words.chunks_exact(6))) {
             assert_eq!(unpack([w[0], w[1], w[2]]), group.cells, "case {case}, group {number}");
             let count = group.candidates.len() as u32;
-            assert_eq!(w[3..], [count, count, group.first_tile], "case {case}, group {number}");
-            let of_group = group.first_tile as usize..(group.first_tile + group.tiles()) as usize;
-            assert!(tile_groups[of_group].iter().all(|&of| of == number), "case {case}");
-            let first = 64 * group.first_tile as usize;
+            assert_eq!(w[3..], [count, count, group.first_packet], "case {case}, group {number}");
+            let of_group = group.first_packet as usize..(group.first_packet + group.packets()) as usize;
+            assert!(packet_groups[of_group].iter().all(|&of| of == number), "case {case}");
+            let first = 64 * group.first_packet as usize;
             let listed = &group_lights[first..first + count as usize];
             assert_eq!(cpu::sort_lists(listed, |n| n), group.candidates, "case {case}, group {number}");
         }
