@@ -24,7 +24,7 @@ mod info;
 mod set;
 mod sizes;
 
-pub use info::{BufferInfo, Element, Owner, Texels, View};
+pub use info::{BufferInfo, BufferView, Element, Owner, Texels};
 pub use set::{BufferSet, set};
 pub use sizes::ClusteringSizes;
 
@@ -201,14 +201,14 @@ impl BufferName {
     }
 
     /// The binding of one way to read it; not every binding is taken.
-    pub fn binding(self, view: View) -> u32 {
-        View::COUNT * self as u32 + view as u32
+    pub fn binding(self, view: BufferView) -> u32 {
+        BufferView::COUNT * self as u32 + view as u32
     }
 
     /// What a binding stands for.
-    pub fn bound_at(binding: u32) -> Option<(Self, View)> {
-        let name = Self::ALL.get((binding / View::COUNT) as usize)?;
-        Some((*name, View::ALL[(binding % View::COUNT) as usize]))
+    pub fn bound_at(binding: u32) -> Option<(Self, BufferView)> {
+        let name = Self::ALL.get((binding / BufferView::COUNT) as usize)?;
+        Some((*name, BufferView::ALL[(binding % BufferView::COUNT) as usize]))
     }
 }
 
@@ -224,11 +224,11 @@ mod tests {
     #[test]
     fn every_binding_says_whose_it_is() {
         for name in BufferName::ALL {
-            for view in View::ALL {
+            for view in BufferView::ALL {
                 assert_eq!(BufferName::bound_at(name.binding(view)), Some((name, view)));
             }
         }
-        assert_eq!(BufferName::bound_at(View::COUNT * BUFFER_COUNT as u32), None);
+        assert_eq!(BufferName::bound_at(BufferView::COUNT * BUFFER_COUNT as u32), None);
     }
 
     #[test]

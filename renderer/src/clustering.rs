@@ -4,7 +4,7 @@ mod host_data;
 
 pub use host_data::{grid_data, gridless_data, view_data};
 
-use crate::buffers::{BUFFER_COUNT, BufferName, BufferSet, ClusteringSizes, Owner, View, set};
+use crate::buffers::{BUFFER_COUNT, BufferName, BufferSet, BufferView, ClusteringSizes, Owner, set};
 use crate::layouts::{BoundBuffers, DescriptorSets, Pipeline};
 use crate::vk::{Buffer, Context, Memory, TexelView};
 use crate::{Error, Result};
@@ -164,7 +164,7 @@ fn all_buffers<'a>(
 fn allocate(context: &Arc<Context>, pipelines: &[Arc<Pipeline>]) -> Result<DescriptorSets> {
     let layouts: Vec<_> =
         pipelines.iter().flat_map(|pipeline| [pipeline.layout.buffers; FRAME_SLOTS]).collect();
-    let kinds = View::ALL.map(|view| {
+    let kinds = BufferView::ALL.map(|view| {
         let uses = pipelines.iter().flat_map(|pipeline| pipeline.uses().views.keys());
         (view.descriptor(), (FRAME_SLOTS * uses.filter(|used| used.1 == view).count()) as u32)
     });
@@ -180,7 +180,7 @@ fn write(
     texels: &[vk::BufferView; BUFFER_COUNT],
 ) {
     let views = &pipeline.uses().views;
-    let info = |&(name, _): &(BufferName, View)| {
+    let info = |&(name, _): &(BufferName, BufferView)| {
         [vk::DescriptorBufferInfo::default().buffer(handles[name as usize]).range(vk::WHOLE_SIZE)]
     };
     let infos: Vec<_> = views.keys().map(info).collect();
@@ -193,8 +193,8 @@ fn write(
                 .dst_binding(name.binding(view))
                 .descriptor_type(view.descriptor());
             match view {
-                View::Storage | View::Uniform => write.buffer_info(info),
-                View::Texels => write.texel_buffer_view(std::slice::from_ref(&texels[name as usize])),
+                BufferView::Storage | BufferView::Uniform => write.buffer_info(info),
+                BufferView::Texels => write.texel_buffer_view(std::slice::from_ref(&texels[name as usize])),
             }
         })
         .collect();

@@ -5,7 +5,7 @@ mod structs;
 
 pub use structs::{
     Candidate, ClusterGroup, ClusteringState, DispatchSize, DrawCommand, DrawCounts, GridData, InstanceData,
-    LightData, LightNode, LightVolume, MaterialData, PixelData, ViewData,
+    LightData, LightNode, LightVolume, MaterialData, PixelData, Push, ViewData,
 };
 
 use crate::geometry::VolumeKind;
@@ -123,7 +123,7 @@ const TEXTURE_SLOTS: [(&str, TextureSlot); 5] = [
 ];
 
 /// Every shared struct; one comes after those it contains.
-const STRUCTS: [StructInfo; 14] = [
+const STRUCTS: [StructInfo; 15] = [
     ViewData::INFO,
     GridData::INFO,
     LightNode::INFO,
@@ -138,6 +138,7 @@ const STRUCTS: [StructInfo; 14] = [
     PixelData::INFO,
     ClusterGroup::INFO,
     Candidate::INFO,
+    Push::INFO,
 ];
 
 /// Names of what shader variants choose among; the value is the position.
@@ -179,7 +180,7 @@ pub fn glsl() -> String {
         text.push_str(&structure.glsl());
         text.push('\n');
     }
-    text.push_str("layout(push_constant) uniform PushConstants { uint view; uint step; } push;\n");
+    text.push_str("layout(push_constant, scalar) uniform PushConstants { Push push; };\n");
     text
 }
 

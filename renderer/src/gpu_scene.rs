@@ -135,11 +135,11 @@ fn materials(context: &Arc<Context>, materials: &[Material]) -> Result<(Buffer, 
 }
 
 fn material_data(material: &Material) -> MaterialData {
-    let mut uv_slots = 0;
+    let mut uv_sets = 0;
     let mut uv_rows = [[0.0; 3]; 10];
     for (slot, texture) in material.textures.iter().enumerate() {
         let [row0, row1] = texture.map_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], |t| t.uv_transform);
-        uv_slots |= texture.map_or(0, |t| t.uv_slot) << slot;
+        uv_sets |= texture.map_or(0, |t| t.uv_set) << slot;
         (uv_rows[2 * slot], uv_rows[2 * slot + 1]) = (row0, row1);
     }
     MaterialData {
@@ -150,7 +150,7 @@ fn material_data(material: &Material) -> MaterialData {
         normal_scale: normal_scale(material),
         occlusion_strength: material.occlusion_strength,
         alpha_cutoff: material.alpha_cutoff,
-        uv_slots,
+        uv_sets,
         unlit: material.unlit.into(),
         uv_rows,
     }

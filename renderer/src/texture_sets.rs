@@ -52,7 +52,7 @@ mod tests {
     #[test]
     fn textures_that_change_nothing_are_not_sampled() {
         let sampler = Sampler { wrap: [Wrap::Repeat; 2], nearest: false };
-        let texture = TextureRef { image: 0, sampler, uv_slot: 0, uv_transform: TextureRef::IDENTITY };
+        let texture = TextureRef { image: 0, sampler, uv_set: 0, uv_transform: TextureRef::IDENTITY };
         let mut material = Material::plain("plain");
         assert_eq!(TextureSet::of(&material), TextureSet::NONE);
         material.textures[TextureSlot::BaseColor as usize] = Some(texture);

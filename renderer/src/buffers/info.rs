@@ -25,7 +25,7 @@ pub enum Owner {
 /// A way for shaders to read a buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u32)]
-pub enum View {
+pub enum BufferView {
     /// Read and written in any order.
     Storage,
     /// Read with an index of each thread's own: llvmpipe fetches a texel for all lanes at once, where it takes storage
@@ -35,7 +35,7 @@ pub enum View {
     Uniform,
 }
 
-impl View {
+impl BufferView {
     /// All ways, in the order of their bindings.
     pub const ALL: [Self; 3] = [Self::Storage, Self::Texels, Self::Uniform];
     /// How many ways there are.
@@ -144,7 +144,7 @@ impl BufferInfo {
         matches!(self.owner, Owner::Frame | Owner::Scene | Owner::ClusteringFrame)
     }
 
-    /// What it may be used for besides [`View`]s: copied, filled and dispatched from, unless it is constant.
+    /// What it may be used for besides [`BufferView`]s: copied, filled and dispatched from, unless it is constant.
     pub fn usage(&self) -> vk::BufferUsageFlags {
         use vk::BufferUsageFlags as U;
         let views = [
@@ -165,7 +165,7 @@ impl BufferName {
         let mut text = String::new();
         if let Some(members) = info.storage {
             let access = if info.is_constant() { "readonly " } else { "" };
-            let layout = layout(View::Storage);
+            let layout = layout(BufferView::Storage);
             let _ = writeln!(text, "{layout}, scalar) {access}buffer {self:?}Buffer {{ {members}; }};");
         }
         if let Some(texels) = &info.texels {
@@ -173,14 +173,17 @@ impl BufferName {
             let _ = writeln!(
                 text,
                 "{}) uniform {sign}textureBuffer {}_texels;",
-                layout(View::Texels),
+                layout(BufferView::Texels),
                 texels.stem
             );
             text.push_str(&texels.reader());
         }
         if let Some(member) = info.uniform {
-            let _ =
-                writeln!(text, "{}, scalar) uniform {self:?}Uniform {{ {member}; }};", layout(View::Uniform));
+            let _ = writeln!(
+                text,
+                "{}, scalar) uniform {self:?}Uniform {{ {member}; }};",
+                layout(BufferView::Uniform)
+            );
         }
         text
     }

@@ -136,7 +136,7 @@ gpu_struct! {
         /// Below this a masked fragment is discarded.
         pub alpha_cutoff: f32,
         /// Bit s: texture s reads the second uv set.
-        pub uv_slots: u32,
+        pub uv_sets: u32,
         /// 1 where base colour is radiance and no light is evaluated, else 0.
         pub unlit: u32,
         /// Two rows of an affine map per texture.
@@ -239,6 +239,20 @@ gpu_struct! {
         pub y: u32,
         /// Workgroups.
         pub z: u32,
+    }
+}
+
+gpu_struct! {
+    /// What shaders are told by push constants.
+    pub struct Push {
+        /// Number of the view, the first of those drawn at once.
+        pub view: u32,
+        /// How many views are drawn at once, for culling.
+        pub view_count: u32,
+        /// 1 where views drawn at once are drawn for those of them in mirrors, 0 for the others.
+        pub mirrored: u32,
+        /// Number of the step, for pipelines that run several times in a stage.
+        pub step: u32,
     }
 }
 

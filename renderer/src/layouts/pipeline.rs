@@ -3,14 +3,15 @@
 use super::{Layouts, Uses, failed, set_layout};
 use crate::Result;
 use crate::buffers::{BUFFER_COUNT, BufferSet};
+use crate::gpu_interface::Push;
 use crate::targets::TargetName;
 use crate::vk::{self as gpu, Context, c_string};
 use ash::vk;
 use std::ffi::CString;
 use std::sync::Arc;
 
-/// View and step.
-const PUSH_BYTES: u32 = 8;
+/// Size of what shaders are told by push constants.
+const PUSH_BYTES: u32 = size_of::<Push>() as u32;
 
 /// The layout of one pipeline: of the buffers, only those that its shaders use.
 pub struct PipelineLayout {

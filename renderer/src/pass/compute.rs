@@ -2,7 +2,7 @@
 
 use super::{Access, Declared, Recorder, Use};
 use crate::buffers::{BufferName, BufferSet};
-use crate::gpu_interface::{DispatchSize, SET_BUFFERS, SET_DEPTH};
+use crate::gpu_interface::{DispatchSize, Push, SET_BUFFERS, SET_DEPTH};
 use crate::layouts::{BoundBuffers, Pipeline};
 use ash::vk;
 
@@ -27,24 +27,15 @@ impl Size {
     }
 }
 
-/// What shaders are told by push constants.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Push {
-    /// Number of the view.
-    pub view: u32,
-    /// Number of the step, for pipelines that run several times in a stage.
-    pub step: u32,
-}
-
 impl Push {
-    /// The number of a view.
+    /// Tells the number of a view.
     pub fn view(view: usize) -> Self {
-        Self { view: view as u32, step: 0 }
+        Self { view: view as u32, ..Self::default() }
     }
 
-    /// The number of a step.
+    /// Tells the number of a step.
     pub fn step(step: u32) -> Self {
-        Self { view: 0, step }
+        Self { step, ..Self::default() }
     }
 }
 
@@ -131,9 +122,8 @@ impl Recorder<'_> {
     /// Tells a pipeline's shaders something else.
     pub fn push(&self, pipeline: &Pipeline, push: Push) {
         let (layout, stages) = (pipeline.layout.handle, vk::ShaderStageFlags::ALL);
-        let words = [push.view, push.step];
         let (device, commands) = (&self.context.device, self.commands());
-        unsafe { device.cmd_push_constants(commands, layout, stages, 0, bytemuck::cast_slice(&words)) };
+        unsafe { device.cmd_push_constants(commands, layout, stages, 0, bytemuck::bytes_of(&push)) };
     }
 
     /// Binds one descriptor set for a pipeline.

@@ -24,7 +24,7 @@ fn cull(r: &mut Recorder, frame: &Frame, eyes: Eyes) {
                 reads: BufferSet::EMPTY,
                 writes: set(&[B::DrawCommands, B::DrawnInstances]),
                 depth: None,
-                push: Push { view: view as u32, step: frame.view_count(eyes) },
+                push: Push { view_count: frame.view_count(eyes), ..Push::view(view) },
             });
         };
         // Marking and transparent surfaces are drawn view by view even so.

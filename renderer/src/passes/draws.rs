@@ -1,6 +1,6 @@
 //! Drawing the scene, a call a pass: what is attached, what is drawn with which pipelines, what their shaders touch.
 
-use super::inputs::{Draws, Eyes, Frame, Layer};
+use super::inputs::{Draws, Eyes, Frame, ImageLayer};
 use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::draw_list::{DrawRun, SurfaceKind};
 use crate::gpu_interface::{DrawCommand, SET_MATERIAL};
@@ -177,7 +177,7 @@ impl Attached<'_> {
     }
 
     /// The attachment of a view's image: its layer, or all layers for all views.
-    fn attachment(&self, layer: &Layer) -> vk::RenderingAttachmentInfo<'static> {
+    fn attachment(&self, layer: &ImageLayer) -> vk::RenderingAttachmentInfo<'static> {
         vk::RenderingAttachmentInfo::default().image_view(match self.eyes {
             Eyes::One(_) => layer.view,
             Eyes::All => layer.image.view,
@@ -267,8 +267,7 @@ fn draw(r: &Recorder, frame: &Frame, eyes: Eyes, (kind, pipelines): (SurfaceKind
     let buffers = frame.buffers_of_view(eyes.first());
     // Views drawn at once take a draw for each way that faces turn, and leave out what is not of it.
     for mirrored in [false, true].into_iter().filter(|&way| frame.any_mirrored(eyes, way)) {
-        let step = if eyes == Eyes::All { u32::from(mirrored) } else { 0 };
-        let push = Push { view: eyes.first() as u32, step };
+        let push = Push { mirrored: u32::from(eyes == Eyes::All && mirrored), ..Push::view(eyes.first()) };
         let mut state =
             SurfaceState { pipelines, buffers, push, mirrored, bound: None, material: None, facing: None };
         draw_all(r, frame, eyes, (kind, &mut state));

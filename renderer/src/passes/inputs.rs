@@ -16,7 +16,7 @@ use std::ops::{Index, Range};
 use std::sync::Arc;
 
 /// One layer of an image. With multiview a view is a layer of an image that all views share; else it has its own image.
-pub struct Layer {
+pub struct ImageLayer {
     /// All layers.
     pub image: Arc<Image>,
     /// Which of them.
@@ -25,7 +25,7 @@ pub struct Layer {
     pub view: vk::ImageView,
 }
 
-impl Layer {
+impl ImageLayer {
     /// A layer of an image.
     pub fn new(image: &Arc<Image>, index: usize) -> Self {
         Self { image: image.clone(), index: index as u32, view: image.layer_views[index] }
@@ -68,14 +68,14 @@ impl Eyes {
 /// A colour target of one view.
 pub struct ColorTarget {
     /// What is drawn into, with all samples.
-    pub drawn: Layer,
+    pub drawn: ImageLayer,
     /// The same with one sample a pixel; `None` where `drawn` has no more, or the target is not resolved.
-    pub resolved: Option<Layer>,
+    pub resolved: Option<ImageLayer>,
 }
 
 impl ColorTarget {
     /// What the host reads.
-    pub fn readable(&self) -> &Layer {
+    pub fn readable(&self) -> &ImageLayer {
         self.resolved.as_ref().unwrap_or(&self.drawn)
     }
 }
@@ -83,7 +83,7 @@ impl ColorTarget {
 /// What a view is rendered into; its colour targets are found by name.
 pub struct ViewTargets {
     /// Reversed depth.
-    pub depth: Layer,
+    pub depth: ImageLayer,
     /// `depth`, for compute shaders.
     pub depth_set: vk::DescriptorSet,
     /// In the order of [`TargetName::ALL`].

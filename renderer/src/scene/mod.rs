@@ -31,7 +31,7 @@ pub struct Vertex {
     pub normal: [f32; 3],
     /// Object-space unit tangent and, in w, the sign of the bitangent (glTF convention).
     pub tangent: [f32; 4],
-    /// Two texture coordinate sets; [`TextureRef::uv_slot`] picks one.
+    /// Two texture coordinate sets; [`TextureRef::uv_set`] picks one.
     pub uv: [[f32; 2]; 2],
     /// Linear vertex colour and alpha, 8-bit unorm.
     pub color: [u8; 4],
@@ -136,7 +136,7 @@ pub struct TextureRef {
     /// Filter and wrap modes.
     pub sampler: Sampler,
     /// Which of [`Vertex::uv`], 0 or 1.
-    pub uv_slot: u32,
+    pub uv_set: u32,
     /// Rows of the affine map applied to the coordinates: u' = row0 . (u, v, 1), v' = row1 . (u, v, 1).
     pub uv_transform: [[f32; 3]; 2],
 }

@@ -1,6 +1,6 @@
 //! The chosen device with its queue, allocator and diagnostics.
 
-use super::device::{Candidate, candidates, choose};
+use super::device::{FoundDevice, choose, found_devices};
 use super::features::Features;
 use super::instance::{Instance, driver_lock};
 use super::limits::{DeviceInfo, Limits};
@@ -51,7 +51,7 @@ impl Context {
     /// [`Error::Input`] when no device has the name or index.
     pub fn new(options: &DeviceOptions) -> Result<Arc<Self>> {
         let instance = Instance::new(options.validate)?;
-        let chosen = choose(candidates(&instance)?, options.device.as_deref())?;
+        let chosen = choose(found_devices(&instance)?, options.device.as_deref())?;
         let device = create_device(&instance.handle, &chosen)?;
         let mut context = Self {
             queue: unsafe { device.get_device_queue(chosen.queue_family, 0) },
@@ -258,7 +258,7 @@ impl Drop for Context {
     }
 }
 
-fn create_device(instance: &ash::Instance, chosen: &Candidate) -> Result<ash::Device> {
+fn create_device(instance: &ash::Instance, chosen: &FoundDevice) -> Result<ash::Device> {
     let queues = [vk::DeviceQueueCreateInfo::default()
         .queue_family_index(chosen.queue_family)
         .queue_priorities(&[1.0])];

@@ -155,8 +155,8 @@ impl Builder<'_> {
         let material = self.materials.place(job.material());
         let mut mesh = Mesh { vertices: vec![PLAIN_VERTEX; wanted.range.len()], indices, material };
         attributes.read_positions(&positions, &wanted, &mut mesh)?;
-        let sets = &self.materials.uv_sets[material as usize];
-        let lacks_uv = attributes.read_uvs(&wanted, sets, &mut mesh)?;
+        let tex_coords = &self.materials.tex_coords[material as usize];
+        let lacks_uv = attributes.read_uvs(&wanted, tex_coords, &mut mesh)?;
         attributes.read_colors(&wanted, &mut mesh)?;
         let normals = attributes.read_normals(&wanted, &mut mesh)?;
         // Where normals are missing, given tangents are to be ignored; where no normal map asks, they are not read.

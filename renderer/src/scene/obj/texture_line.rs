@@ -60,7 +60,7 @@ impl TextureLine {
 
     /// The texture, given the place of its image in the scene.
     pub fn reference(&self, image: u32) -> TextureRef {
-        TextureRef { image, sampler: self.sampler, uv_slot: 0, uv_transform: self.uv_transform }
+        TextureRef { image, sampler: self.sampler, uv_set: 0, uv_transform: self.uv_transform }
     }
 }
 

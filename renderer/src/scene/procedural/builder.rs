@@ -160,7 +160,7 @@ fn material(surface: Surface, sets: &BTreeMap<Pattern, ImageSet>) -> Material {
         Some(TextureRef {
             image,
             sampler: Sampler { wrap: [Wrap::Repeat; 2], nearest: false },
-            uv_slot: 0,
+            uv_set: 0,
             uv_transform: [[scale, 0.0, 0.0], [0.0, scale, 0.0]],
         })
     };
