@@ -74,7 +74,7 @@ impl fmt::Display for Assigner {
 /// What decides which way is cheapest: counts of one clustering in one frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AssignCounts {
-    /// Lights.
+    /// Number of lights.
     pub lights: u32,
     /// Clusters to build lists for.
     pub visible_clusters: u32,

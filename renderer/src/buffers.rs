@@ -43,11 +43,11 @@ macro_rules! buffers {
         pub enum BufferName { $($(#[$doc])* $name),+ }
 
         impl BufferName {
-            /// All of them, in the order of their bindings.
+            /// All buffers, in the order of their bindings.
             pub const ALL: [Self; BUFFER_COUNT] = [$(Self::$name),+];
         }
 
-        /// How many there are.
+        /// How many buffers shaders see.
         pub const BUFFER_COUNT: usize = [$(stringify!($name)),+].len();
 
         static BUFFERS: [BufferInfo; BUFFER_COUNT] = [$($info),+];
@@ -77,7 +77,7 @@ buffers! {
     WordRanks = buffer("word_ranks", Owner::Clustering)
         .storage("uint word_ranks[]")
         .sized(|s| bytes::<u32>(s.words()));
-    /// Linear indices, ascending.
+    /// Linear indices of the visible clusters, ascending.
     VisibleClusters = buffer("visible_clusters", Owner::Clustering)
         .storage("uint visible_clusters[]")
         .sized(|s| bytes::<u32>(s.visible()));
@@ -136,7 +136,7 @@ buffers! {
     SortItems = buffer("sort_items", Owner::Clustering)
         .storage("uvec2 sort_items[]")
         .sized(|s| bytes::<[u32; 2]>(2 * s.tree_lights()));
-    /// Items of the sort by digit, then by block.
+    /// Number of items of the sort by digit, then by block.
     DigitCounts = buffer("digit_counts", Owner::Clustering)
         .storage("uint digit_counts[]")
         .sized(|s| bytes::<u32>(s.digit_counts()));
@@ -145,7 +145,7 @@ buffers! {
         .storage("LightVolume tree_volumes[]")
         .texels("tree_volume", Element::Struct(LightVolume::INFO))
         .sized(|s| bytes::<LightVolume>(s.tree_lights()));
-    /// The numbers of those among the candidates.
+    /// The candidate of each of `tree_volumes`, by its number.
     TreeLights = buffer("tree_lights", Owner::Clustering)
         .storage("uint tree_lights[]")
         .sized(|s| bytes::<u32>(s.tree_lights()));
@@ -180,13 +180,13 @@ buffers! {
         .storage("Candidate candidates[]")
         .texels("candidate", Element::Struct(Candidate::INFO))
         .sized(|s| bytes::<Candidate>(s.culled(s.lights.into())));
-    /// The frame's lights.
+    /// Lights of the frame, world space.
     Lights = buffer("lights", Owner::Engine)
         .texels("light", Element::Struct(LightData::INFO))
         .sized(|s| bytes::<LightData>(s.lights.into()));
     /// What is drawn of the scene where the device culls.
     Drawables = buffer("drawables", Owner::Scene).storage("DrawCommand drawables[]");
-    /// How many of them there are, and the order of the transparent ones.
+    /// How many drawables there are, and the order of the transparent ones.
     DrawOrder = buffer("draw_order", Owner::Frame).storage("DrawCounts draw_counts; uint draw_order[]");
     /// What stage `cull` lets through of the drawables: a part for each view, and one for all at once.
     DrawCommands = buffer("draw_commands", Owner::Session).storage("DrawCommand draw_commands[]");

@@ -52,7 +52,7 @@ pub type SharedBuffer<'a> = (BufferName, [&'a Buffer; FRAME_SLOTS]);
 
 /// One clustering on the device.
 pub struct Clustering {
-    /// What shaders fill.
+    /// Buffers that shaders fill.
     pub buffers: ClusteringBuffers,
     /// What the host writes for each frame, one per frame in flight, mapped.
     pub host: [ClusteringBuffers; FRAME_SLOTS],
@@ -72,7 +72,7 @@ pub struct Clustering {
 }
 
 impl Clustering {
-    /// Makes the buffers, and for each of `pipelines` the sets that bind what it uses of them.
+    /// Makes the buffers, and for each of `pipelines` the descriptor sets that bind what it uses of them.
     pub fn new(
         context: &Arc<Context>,
         shared: &[SharedBuffer],

@@ -112,7 +112,7 @@ impl Batches {
     }
 }
 
-/// The runs of instances that one view draws, by kind; its memory is kept from frame to frame.
+/// Runs of instances that one view draws, by kind; the memory is kept from frame to frame.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct DrawList {
     /// Runs of opaque instances, by material.
@@ -135,7 +135,7 @@ impl DrawList {
         }
     }
 
-    /// Refills the list with what any of `views` may see; transparent instances are sorted for the first of them.
+    /// Refills the list with what any of `views` may see; transparent instances are sorted for the first view.
     pub fn update(&mut self, batches: &Batches, views: &[View]) {
         self.opaque.clear();
         self.masked.clear();

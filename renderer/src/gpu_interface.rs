@@ -15,7 +15,7 @@ use crate::measure::DeviceCounts;
 use crate::scene::TextureSlot;
 use std::fmt::Write as _;
 
-/// Descriptor set of the storage buffers, of what views some of them as texels, and of the uniform buffers.
+/// Descriptor set of a pipeline's buffers, as storage, texels or uniforms.
 pub const SET_BUFFERS: u32 = 0;
 /// Descriptor set of a material: its five textures and its [`MaterialData`].
 pub const SET_MATERIAL: u32 = 1;
@@ -25,7 +25,7 @@ pub const SET_DEPTH: u32 = 2;
 pub const MAX_VIEWS: u32 = 32;
 /// Threads of a workgroup of the prefix sum.
 pub const SCAN_WORKGROUP: u32 = 256;
-/// Items that such a workgroup takes.
+/// Items that a workgroup of the prefix sum takes.
 pub const SCAN_BLOCK: u32 = 1024;
 /// Threads of a workgroup of the assignment passes; visible clusters of a group, lights of a packet.
 pub const ASSIGN_WORKGROUP: u32 = 64;
@@ -33,7 +33,7 @@ pub const ASSIGN_WORKGROUP: u32 = 64;
 pub const CULL_WORKGROUP: u32 = 64;
 /// Packets along x of a dispatch; more go along y.
 pub const PACKET_ROW: u32 = 1 << 15;
-/// The same of lists that have a workgroup each.
+/// Lists along x of a dispatch with a workgroup a list; more go along y.
 pub const LIST_ROW: u32 = 1 << 15;
 /// Blocks of clusters along x and y, at most; along z there are up to 32, a bit each.
 pub const BLOCK_COLUMNS: u32 = 16;
@@ -42,19 +42,19 @@ pub const BLOCK_COLUMNS: u32 = 16;
 const BLOCK_EXTREMES: u32 = (4 * BLOCK_COLUMNS * BLOCK_COLUMNS - 1) / 3;
 /// All words of blocks.
 pub const BLOCK_WORDS: u32 = BLOCK_EXTREMES + 6;
-/// Groups that one thread takes a candidate to.
+/// Groups of clusters that one thread takes a candidate to.
 pub const GROUP_CHUNK: u32 = 16;
 /// Threads of a cluster, among which the hierarchy's subtrees are dealt out.
 pub const TREE_SPLIT: u32 = 8;
 /// Slot of the dispatch size with a thread a list.
 pub const DISPATCH_LISTS: u32 = 0;
-/// The same where light bits fit, else nothing.
+/// Index of the dispatch size with a thread a list where light bits fit, else nothing.
 pub const DISPATCH_MASKED: u32 = 1;
 /// Slot of the dispatch size with a workgroup a list where they do not fit, else nothing.
 pub const DISPATCH_UNMASKED: u32 = 2;
 /// Slot of the dispatch size that finds who meets whom.
 pub const DISPATCH_MEET: u32 = 3;
-/// The same once more where light bits do not fit, else nothing.
+/// Index of the dispatch size that finds once more who meets whom where light bits do not fit, else nothing.
 pub const DISPATCH_MEET_AGAIN: u32 = 4;
 /// Slot of the dispatch size of the prefix sum over list lengths.
 pub const DISPATCH_SCAN: u32 = 5;
@@ -66,7 +66,7 @@ pub const DISPATCH_SORT: u32 = 7;
 pub const DISPATCH_SORT_SCAN: u32 = 8;
 /// First slot of the dispatch sizes of the light hierarchy's depths.
 pub const DISPATCH_NODES: u32 = 9;
-/// How many slots there are.
+/// How many sizes of indirect dispatches there are.
 pub const DISPATCH_COUNT: u32 = DISPATCH_NODES + MAX_TREE_DEPTH;
 /// Children of a node of the light hierarchy, a power of two.
 pub const TREE_WIDTH: u32 = 8;
@@ -74,12 +74,12 @@ pub const TREE_WIDTH: u32 = 8;
 pub const MAX_TREE_DEPTH: u32 = 11;
 /// Bits of a key that one pass of the sort orders by.
 pub const SORT_BITS: u32 = 7;
-/// Values of those bits.
+/// How many values the digit of a key has that one pass of the sort orders by.
 pub const SORT_DIGITS: u32 = 1 << SORT_BITS;
 /// Items that one thread of the sort takes.
 pub const SORT_BLOCK: u32 = 128;
 
-/// How many 64-bit counters the atemporal run has: those of [`DeviceCounts`].
+/// How many 64-bit counters the atemporal run has: as many as [`DeviceCounts`] has fields.
 pub const COUNTER_COUNT: usize = DeviceCounts::NAMES.len();
 
 const CONSTANTS: [(&str, u32); 28] = [

@@ -19,11 +19,11 @@ use std::sync::Arc;
 pub struct GpuScene {
     /// [`crate::scene::Vertex`] of all primitives.
     pub vertices: Buffer,
-    /// 32-bit indices.
+    /// 32-bit indices of all primitives.
     pub indices: Buffer,
     /// [`crate::gpu_interface::InstanceData`] in drawing order, relative to `origin`.
     pub instances: Buffer,
-    /// Of the frames that can be drawn now, see [`crate::origin`]; metres.
+    /// Origin of the frames that can be drawn now (see [`crate::origin`]), metres.
     pub origin: DVec3,
     /// No instance reaches farther from `origin`, metres.
     pub reach: f64,
@@ -34,7 +34,7 @@ pub struct GpuScene {
     pub batches: Vec<Batch>,
     /// The textures of each material.
     pub material_sets: Vec<vk::DescriptorSet>,
-    /// Which of them each samples.
+    /// Which textures each material samples.
     pub texture_sets: Vec<TextureSet>,
     _materials: Buffer,
     _sets: DescriptorSets,
@@ -43,7 +43,7 @@ pub struct GpuScene {
 }
 
 impl GpuScene {
-    /// Uploads `scene`, its instances in the order of `batches`, with what `drawables` draws of them.
+    /// Uploads `scene`: its instances in the order of `batches`, and the draw commands of `drawables`.
     pub fn new(
         context: &Arc<Context>,
         layouts: &Layouts,

@@ -40,7 +40,7 @@ impl Problem {
         Self { path: Vec::new(), message: message.into() }
     }
 
-    /// The same problem, seen from the value that holds this one at `step`.
+    /// This problem, seen from the value that holds this one at `step`.
     pub(crate) fn under(mut self, step: impl Into<Step>) -> Self {
         self.path.insert(0, step.into());
         self

@@ -22,10 +22,10 @@ pub(crate) fn hint(name: &str, valid: &[&str]) -> String {
     }
 }
 
-/// That of `all` which is called `text`; `what` says what it should be.
+/// The item of `all` that is called `text`; `what` says what it should be.
 ///
 /// # Errors
-/// There is none: names the nearest.
+/// No item has this name; names the nearest.
 pub(crate) fn named<T: Copy + ToString>(text: &str, all: &[T], what: &str) -> Result<T, String> {
     all.iter().find(|item| item.to_string() == text).copied().ok_or_else(|| {
         let names: Vec<String> = all.iter().map(ToString::to_string).collect();

@@ -9,12 +9,12 @@ use std::collections::BTreeSet;
 pub struct TextureSet(u32);
 
 impl TextureSet {
-    /// No textures.
+    /// The set of no textures.
     pub const NONE: Self = Self(0);
-    /// The colour alone.
+    /// The set of the base colour alone.
     pub const BASE_COLOR: Self = Self(1 << TextureSlot::BaseColor as u32);
 
-    /// Those that change how a material looks.
+    /// Textures of `material` that change how it looks.
     pub fn of(material: &Material) -> Self {
         let slots = material.textures.iter().enumerate().filter(|(_, texture)| texture.is_some());
         let all = slots.fold(0, |bits, (slot, _)| bits | 1 << slot);
@@ -27,7 +27,7 @@ impl TextureSet {
         self.0
     }
 
-    /// Whether one of them is there.
+    /// Whether a texture is in the set.
     pub fn has(self, slot: TextureSlot) -> bool {
         self.0 >> slot as u32 & 1 != 0
     }

@@ -92,13 +92,13 @@ fn copy_tree(from: &Path, to: &Path) {
 
 /// One run with all it measured.
 pub struct Run {
-    /// What was run.
+    /// What was planned of the run.
     pub planned: PlannedRun,
-    /// Counters by frame.
+    /// Counters of each frame.
     pub counts: Vec<FrameCounts>,
     /// Times by frame and run.
     pub times: Vec<FrameTimes>,
-    /// Images by frame.
+    /// Pictures of each frame, one a view.
     pub images: Vec<(u32, Vec<ViewPixels>)>,
     /// Clusters from above, by frame.
     pub birdseyes: Vec<(u32, RgbImage)>,
@@ -159,7 +159,7 @@ pub fn run(config: Config) -> Vec<Run> {
     run_inputs(config, &inputs)
 }
 
-/// The same with inputs at hand.
+/// Replays as [`run`] does, with inputs at hand.
 ///
 /// # Panics
 /// Where the replay fails.

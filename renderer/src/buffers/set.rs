@@ -21,10 +21,10 @@ pub const fn set(names: &[BufferName]) -> BufferSet {
 }
 
 impl BufferSet {
-    /// None of them.
+    /// The set of no buffers.
     pub const EMPTY: Self = Self(0);
 
-    /// Adds one.
+    /// Adds one buffer to the set.
     pub fn insert(&mut self, name: BufferName) {
         self.0 |= set(&[name]).0;
     }
@@ -34,7 +34,7 @@ impl BufferSet {
         self.0 & set(&[name]).0 != 0
     }
 
-    /// Those among them, in the order of the table.
+    /// Buffers of the set, in the order of the table.
     pub fn names(self) -> impl Iterator<Item = BufferName> {
         BufferName::ALL.into_iter().filter(move |&name| self.contains(name))
     }

@@ -12,13 +12,13 @@ use crate::{Error, Result};
 pub struct ClusteringSizes {
     /// Clusters of the grid (largest of all frames); 0 for a method without clusters.
     pub clusters: u64,
-    /// Which of them get lists.
+    /// Which clusters get lists.
     pub listed: Clusters,
     /// Depths between slices of a perspective grid (most of all frames).
     pub slice_planes: u32,
     /// Lights (most of all frames).
     pub lights: u32,
-    /// Entries.
+    /// How many entries the buffers of visible clusters and light indices hold.
     pub capacities: Capacities,
     /// How the lists are built.
     pub assigner: Assigner,
@@ -42,7 +42,7 @@ impl ClusteringSizes {
         self.capacities.visible_clusters.into()
     }
 
-    /// Where their lists begin, and where the last one ends; none without clusters.
+    /// Entries of the offsets of lists: where each begins, and where the last one ends; none without clusters.
     pub(super) fn offsets(&self) -> u64 {
         if self.visible() > 0 { self.visible() + 1 } else { 0 }
     }
@@ -72,7 +72,7 @@ impl ClusteringSizes {
         if self.assigner == Assigner::Hierarchy { u64::from(self.lights) } else { 0 }
     }
 
-    /// Nodes above them.
+    /// Nodes of the hierarchy, lights not counted.
     pub(super) fn nodes(&self) -> u64 {
         if self.tree_lights() > 0 { assign::tree_nodes(self.lights) } else { 0 }
     }
@@ -92,7 +92,7 @@ impl ClusteringSizes {
         }
     }
 
-    /// Packets of those.
+    /// Packets of lights of all groups of clusters.
     pub(super) fn group_packets(&self) -> u64 {
         self.group_lights() / u64::from(ASSIGN_WORKGROUP)
     }

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 pub struct CellRange {
     /// Lowest index on each axis.
     pub low: [u32; 3],
-    /// Highest.
+    /// Highest cell of the range, on each axis.
     pub high: [u32; 3],
 }
 
@@ -37,16 +37,16 @@ impl CellRange {
 /// A light that may meet a visible cluster.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Candidate {
-    /// Which.
+    /// Index of the light in the frame.
     pub light: u32,
     /// The cells that it may meet.
     pub cells: CellRange,
 }
 
-/// What culling leaves.
+/// Lights that are left once those that reach nothing visible are dropped.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Culled {
-    /// By ascending light.
+    /// Lights that may meet a visible cluster, ascending.
     pub candidates: Vec<Candidate>,
     /// Lights, ascending, of which f32 may decide otherwise: whether they are candidates, or of which cells.
     pub borderline: Vec<u32>,

@@ -9,7 +9,7 @@ use glam::{DVec3, Vec3};
 /// A candidate's key: the higher bits of the Morton code of its place in the grid's bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Key {
-    /// The key.
+    /// The higher bits of the Morton code.
     pub key: u32,
     /// Whether f32 may round to another place.
     pub borderline: bool,
@@ -48,11 +48,11 @@ pub fn sorted(keys: &[u32]) -> Vec<u32> {
 /// A node: the centres of its lights lie in a box, their radii are at most `radius`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Node {
-    /// Of the box, metres.
+    /// Centre of the box that holds the centres of the node's lights, metres.
     pub centre: Vec3,
-    /// Half the size of the box, metres.
+    /// Half the size of that box, metres.
     pub half_extent: Vec3,
-    /// Metres.
+    /// Largest radius of the node's lights, metres.
     pub radius: f32,
 }
 
@@ -101,7 +101,7 @@ fn node(children: impl Iterator<Item = (Vec3, Vec3, f32)>) -> Node {
 /// What going down a tree finds.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Descent {
-    /// By place in the tree, not by light.
+    /// Lists of the visible clusters, whose lights are named by their place in the tree.
     pub lists: FoundLists,
     /// Tests of nodes and lights.
     pub tests: u64,

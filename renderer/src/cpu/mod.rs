@@ -47,9 +47,9 @@ use crate::geometry::Grid;
 /// The visible clusters of a grid.
 #[derive(Debug, Clone, Copy)]
 pub struct Visible<'a> {
-    /// The grid.
+    /// The grid whose cells the clusters are.
     pub grid: &'a Grid,
-    /// Linear indices, ascending.
+    /// Linear indices of the visible clusters, ascending.
     pub clusters: &'a [u32],
 }
 

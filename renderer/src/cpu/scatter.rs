@@ -12,12 +12,12 @@ pub struct ClusterGroup {
     pub cells: CellRange,
     /// Numbers of the candidates whose cells overlap those, ascending.
     pub candidates: Vec<u32>,
-    /// How many packets of [`ASSIGN_WORKGROUP`] candidates the groups before it have.
+    /// Index of the first packet of [`ASSIGN_WORKGROUP`] candidates: how many the groups before have.
     pub first_packet: u32,
 }
 
 impl ClusterGroup {
-    /// How many packets its candidates fill.
+    /// How many packets the candidates of the group fill.
     pub fn packets(&self) -> u32 {
         (self.candidates.len() as u32).div_ceil(ASSIGN_WORKGROUP)
     }

@@ -17,13 +17,13 @@ pub struct Counted {
     lights_per_fragment: Vec<u32>,
     visible_clusters: Vec<u32>,
     visible_fragments: Vec<u32>,
-    /// The light lists.
+    /// Light lists of the clustering.
     pub lists: ClusterLists,
 }
 
 impl Counted {
-    /// Reads what the frame that ended in `slot` counted with `lights` lights; `state` is its state, zero for a
-    /// method without clusters.
+    /// Reads what the frame that ended in `slot` counted with `lights` lights; `state` is that of the clustering, zero
+    /// for a method without clusters.
     pub fn read(
         engine: &mut Engine,
         session: &mut Session,

@@ -72,7 +72,7 @@ pub struct Engine {
     clusterings: Vec<Clustering>,
     /// Whether frames are shaded; true at first.
     pub shaded: bool,
-    /// Its frames' stages.
+    /// Stages of the engine's frames.
     pub tree: ScopeTree,
     /// What was grown, in order.
     pub growth: Vec<GrowthEvent>,

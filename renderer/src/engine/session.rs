@@ -31,9 +31,9 @@ pub struct Session {
     _depth_sets: DescriptorSets,
     /// The scene on the device.
     pub scene: GpuScene,
-    /// Its instances in drawing order.
+    /// Instances of the scene in drawing order.
     pub batches: Batches,
-    /// What is drawn of them where the device culls.
+    /// Everything that is drawn of the scene where the device culls.
     pub drawables: Drawables,
     /// What stage `cull` fills.
     pub draws: DrawBuffers,
@@ -43,7 +43,7 @@ pub struct Session {
     pub tracker: FrameTracker,
     /// What tells the machine's state.
     pub probe: Probe,
-    /// The device.
+    /// The Vulkan device that the session runs on.
     pub context: Arc<Context>,
 }
 

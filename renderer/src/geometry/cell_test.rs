@@ -10,7 +10,7 @@ use glam::DVec3;
 /// A plane by its unit normal, which points inwards, and its offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
-    /// Unit, inwards.
+    /// Unit normal of the plane, inwards.
     pub normal: DVec3,
     /// Signed distance of the origin, metres.
     pub offset: f64,

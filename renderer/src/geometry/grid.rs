@@ -55,12 +55,12 @@ pub fn cell_at(linear: u32, [dx, dy, _]: [u32; 3]) -> [u32; 3] {
 }
 
 impl Grid {
-    /// The same grid in a world whose origin lies at `origin` (metres) of this one.
+    /// This grid in a world whose origin lies at `origin` (metres) of the world it is in.
     pub fn relative_to(&self, origin: DVec3) -> Self {
         Self { pose: self.pose.relative_to(origin), ..*self }
     }
 
-    /// Dx*Dy*Dz.
+    /// Number of clusters: Dx*Dy*Dz.
     pub fn cluster_count(&self) -> u64 {
         self.dimensions.into_iter().map(u64::from).product()
     }
@@ -165,7 +165,7 @@ impl Grid {
     /// for orthographic grids.
     ///
     /// Slice k holds what is not nearer than plane k and nearer than plane k + 1, compared in f32 on the device. They
-    /// ascend strictly, see [`super::plan()`].
+    /// ascend strictly, see [`crate::methods::Method::plan`].
     pub fn slice_planes(&self, planes: &mut Vec<f32>) {
         planes.clear();
         if let ClusterSpace::Perspective { frustum, ratio } = self.space {

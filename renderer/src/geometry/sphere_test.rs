@@ -14,7 +14,7 @@ pub enum SphereTest {
     Exact,
     /// They meet where the nearest point of the cluster's axis-aligned bounds lies in the sphere: exact for orthographic grids, conservative otherwise.
     Box,
-    /// They meet unless a separator separates them: conservative.
+    /// They meet unless something separates them: conservative.
     Separating(Separators),
 }
 
@@ -38,7 +38,7 @@ impl Separators {
     const AXES: [(char, Self); 4] =
         [('e', Self::EDGES), ('n', Self::NEAREST_VERTEX), ('p', Self::NORMALS), ('v', Self::VERTICES)];
 
-    /// Whether all of `others` are in this set.
+    /// Whether all of `others` are in the set.
     pub fn contain(self, others: Self) -> bool {
         self.0 & others.0 == others.0
     }

@@ -24,7 +24,7 @@ pub struct Uses {
 }
 
 impl Uses {
-    /// Of the shaders of some stages, by their SPIR-V; `name` is for messages.
+    /// What the shaders of some stages use, by their SPIR-V; `name` is for messages.
     ///
     /// # Errors
     /// [`Error::Internal`] where SPIR-V cannot be read, or binds what nobody declares.

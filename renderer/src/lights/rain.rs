@@ -21,7 +21,7 @@ const LIGHTS_PER_TASK: usize = 1024;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RainParameters {
-    /// The same seed gives the same lights on every machine.
+    /// Seed of all random choices: the same seed gives the same lights on every machine.
     pub seed: u64,
     /// Lowest corner of the box, metres.
     pub box_min: [f32; 3],
@@ -33,7 +33,7 @@ pub struct RainParameters {
     pub velocity_max: [f32; 3],
     /// Lowest and highest value of a tint's channels.
     pub tint: [f32; 2],
-    /// Added to the velocity in every step, m/s.
+    /// What is added to the velocity in every step, m/s.
     pub gravity_step: [f32; 3],
     /// Multiplies the velocity in every step, after gravity.
     pub damping: f32,

@@ -43,13 +43,14 @@ pub struct FrameCounts {
     pub frame: u32,
     /// Frame number times the recording's time step, seconds.
     pub time_s: f64,
-    /// Rendering cameras.
+    /// How many rendering cameras there are.
     pub views: u32,
-    /// One entry a clustering: a view each for Indi, one for Encl, none for all-lights.
+    /// What was counted of each clustering: one a view for Indi, one for Encl, none for all-lights.
     pub clusterings: Vec<ClusteringCounts>,
     /// What the shaders counted, over clusterings.
     pub counters: DeviceCounts,
-    /// Per clustering (views for all-lights): (lights, fragments) for every bin with fragments, ascending.
+    /// Histogram of each clustering (of each view for all-lights): (lights, fragments) for every bin with fragments,
+    /// ascending.
     pub lights_per_fragment: Vec<Vec<(u32, u64)>>,
 }
 
@@ -58,7 +59,7 @@ pub struct FrameCounts {
 pub struct StageTime {
     /// Path in the stage tree, such as `frame/cluster[0]/count_lights`.
     pub stage: String,
-    /// GPU time, milliseconds.
+    /// Time on the GPU, milliseconds.
     pub gpu_ms: f64,
     /// CPU time spent recording it, milliseconds.
     pub cpu_ms: f64,
@@ -80,9 +81,9 @@ pub struct FrameTimes {
 pub struct ViewPixels {
     /// `mono`, `left`, `right` or `view2`...
     pub name: String,
-    /// Pixels.
+    /// Width, pixels.
     pub width: u32,
-    /// Pixels.
+    /// Height, pixels.
     pub height: u32,
     /// Linear HDR colour and coverage.
     pub color: Vec<[f16; 4]>,

@@ -6,10 +6,10 @@ use crate::gpu_interface::{DispatchSize, Push, SET_BUFFERS, SET_DEPTH};
 use crate::layouts::{BoundBuffers, Pipeline};
 use ash::vk;
 
-/// How many workgroups run.
+/// How many workgroups of a compute pass run.
 #[derive(Debug, Clone, Copy)]
 pub enum Size {
-    /// So many along x and y.
+    /// As many along x and along y.
     Workgroups(u32, u32),
     /// As many as the device wrote into the entry of [`BufferName::Dispatches`] with this index.
     Indirect(u32),
@@ -42,7 +42,7 @@ impl Push {
 /// A depth image, as compute shaders sample it.
 #[derive(Debug, Clone, Copy)]
 pub struct DepthImage {
-    /// It, with all its layers.
+    /// The image with all its layers.
     pub image: vk::Image,
     /// The set that binds a layer of it.
     pub set: vk::DescriptorSet,
@@ -51,11 +51,11 @@ pub struct DepthImage {
 /// A compute pass.
 #[derive(Clone, Copy)]
 pub struct Dispatch<'a> {
-    /// What runs.
+    /// Pipeline that runs.
     pub pipeline: &'a Pipeline,
     /// What the names of buffers stand for.
     pub buffers: BoundBuffers<'a>,
-    /// How much of it runs.
+    /// How many workgroups run.
     pub size: Size,
     /// Buffers that are read alone.
     pub reads: BufferSet,

@@ -8,7 +8,7 @@ use ash::vk;
 /// The buffers that a pass touches in the frame, but for those that stay as they are.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Declared {
-    /// Read alone.
+    /// Buffers that are read alone.
     pub reads: BufferSet,
     /// Written, and perhaps read.
     pub writes: BufferSet,

@@ -162,7 +162,7 @@ impl Drop for Timestamps {
 
 /// Records one frame: every pass gets its label, its timestamp scope and its barriers here.
 pub struct Recorder<'a> {
-    /// For drawing the scene; all other passes have a call of their own.
+    /// The device, for drawing the scene; all other passes have a call of their own.
     pub context: &'a Context,
     commands: vk::CommandBuffer,
     /// Whether commands may have been recorded since the last timestamp.

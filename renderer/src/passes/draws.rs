@@ -18,7 +18,7 @@ use std::sync::Arc;
 pub enum DepthUse {
     /// Cleared to far, tested and written.
     Write,
-    /// Tested alone.
+    /// Depth is tested and not written.
     Test,
 }
 
@@ -27,16 +27,16 @@ pub enum DepthUse {
 pub enum ColorUse {
     /// Cleared to red, green, blue and alpha; the format of the target is one of floats.
     Clear([f32; 4]),
-    /// Drawn over.
+    /// What is there is kept and drawn over.
     Keep,
 }
 
 /// What draws surfaces of a kind.
 #[derive(Clone, Copy)]
 pub enum SurfacePipelines<'a> {
-    /// The same for all.
+    /// One pipeline for all materials.
     One(&'a Pipeline),
-    /// By the textures of the material.
+    /// A pipeline for each set of textures that materials have.
     ByTextures(&'a BTreeMap<TextureSet, Arc<Pipeline>>),
 }
 
@@ -71,7 +71,7 @@ pub struct SurfacePass<'a> {
     pub depth: DepthUse,
     /// What is drawn, in order.
     pub draws: &'a [(SurfaceKind, SurfacePipelines<'a>)],
-    /// Buffers that are read alone, besides the draws themselves.
+    /// Buffers that are read alone, not counting those of the scene that draws read.
     pub reads: BufferSet,
     /// Buffers that are written, and perhaps read.
     pub writes: BufferSet,
@@ -104,15 +104,15 @@ pub fn surfaces(r: &mut Recorder, frame: &Frame, pass: &SurfacePass) {
 /// Instances of a shape that a vertex shader makes, drawn over a picture.
 #[derive(Clone, Copy)]
 pub struct Overlay<'a> {
-    /// What draws it.
+    /// Pipeline that draws the overlay.
     pub pipeline: &'a Pipeline,
     /// Vertices of an instance.
     pub vertices: u32,
-    /// Instances.
+    /// Number of instances.
     pub count: u32,
     /// Data of each instance, where the shader reads any.
     pub instances: Option<&'a Buffer>,
-    /// Whether it is closed, so that the faces away from the camera are left out.
+    /// Whether the shape is closed, so that the faces away from the camera are left out.
     pub closed: bool,
     /// Buffers that are read.
     pub reads: BufferSet,

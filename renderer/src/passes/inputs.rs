@@ -17,11 +17,11 @@ use std::sync::Arc;
 
 /// One layer of an image. With multiview a view is a layer of an image that all views share; else it has its own image.
 pub struct ImageLayer {
-    /// All layers.
+    /// The image with all its layers.
     pub image: Arc<Image>,
-    /// Which of them.
+    /// Index of the layer in its image.
     pub index: u32,
-    /// It alone.
+    /// View of the layer alone.
     pub view: vk::ImageView,
 }
 
@@ -31,7 +31,7 @@ impl ImageLayer {
         Self { image: image.clone(), index: index as u32, view: image.layer_views[index] }
     }
 
-    /// Its colour, for copies.
+    /// Colour of the layer, for copies.
     pub fn color(&self) -> (vk::Image, vk::ImageSubresourceLayers) {
         let layers = vk::ImageSubresourceLayers::default().aspect_mask(vk::ImageAspectFlags::COLOR);
         (self.image.handle, layers.base_array_layer(self.index).layer_count(1))
@@ -41,7 +41,7 @@ impl ImageLayer {
 /// The views that a geometry pass draws at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Eyes {
-    /// One view.
+    /// One view, by its number.
     One(usize),
     /// All, each into its layer.
     All,
@@ -69,7 +69,7 @@ impl Eyes {
 pub struct ColorTarget {
     /// What is drawn into, with all samples.
     pub drawn: ImageLayer,
-    /// The same with one sample a pixel; `None` where `drawn` has no more, or the target is not resolved.
+    /// The target with one sample a pixel; `None` where `drawn` has no more, or the target is not resolved.
     pub resolved: Option<ImageLayer>,
 }
 
@@ -82,16 +82,16 @@ impl ColorTarget {
 
 /// What a view is rendered into; its colour targets are found by name.
 pub struct ViewTargets {
-    /// Reversed depth.
+    /// Reversed depth of the view.
     pub depth: ImageLayer,
     /// `depth`, for compute shaders.
     pub depth_set: vk::DescriptorSet,
-    /// In the order of [`TargetName::ALL`].
+    /// Colour targets in the order of [`TargetName::ALL`].
     pub colors: Vec<ColorTarget>,
 }
 
 impl ViewTargets {
-    /// Its depth, as compute shaders sample it.
+    /// Depth of the view, as compute shaders sample it.
     pub fn depth_image(&self) -> DepthImage {
         DepthImage { image: self.depth.image.handle, set: self.depth_set }
     }
@@ -117,7 +117,7 @@ pub struct DrawBuffers {
 pub enum Draws<'a> {
     /// What the host let through, a list for each view and one for all at once.
     Listed(&'a [DrawList]),
-    /// Everything, by commands that stage `cull` fills, as many lists.
+    /// Everything, by commands that stage `cull` fills, a part for each view and one for all at once.
     Indirect {
         /// The scene's.
         drawables: &'a Drawables,
@@ -132,13 +132,13 @@ pub enum Draws<'a> {
 pub struct Frame<'a> {
     /// Pipelines of the method.
     pub pipelines: &'a Pipelines,
-    /// What is drawn.
+    /// The scene that is drawn.
     pub scene: &'a GpuScene,
     /// What each view draws of it.
     pub draws: Draws<'a>,
     /// What each view is rendered into.
     pub targets: &'a [ViewTargets],
-    /// Of each view, whether it sees the world in a mirror.
+    /// Whether each view sees the world in a mirror.
     pub mirrored: &'a [bool],
     /// The clusterings; for a method without, one that holds every view and no grid.
     pub clusterings: &'a [Clustering],
@@ -158,7 +158,7 @@ pub struct Frame<'a> {
     pub lights: &'a Buffer,
     /// The lights as the host wrote them.
     pub light_staging: &'a Buffer,
-    /// Whether those on the device are others yet.
+    /// Whether the lights on the device are still those of another frame.
     pub lights_changed: bool,
     /// How many lights there are.
     pub light_count: u32,
@@ -217,7 +217,7 @@ impl Frame<'_> {
         }
     }
 
-    /// Which of the draw lists is for `eyes`: those of single views, then that of all at once.
+    /// Index of the draw list for `eyes`: those of single views come first, then that of all at once.
     pub fn list_of(&self, eyes: Eyes) -> usize {
         match eyes {
             Eyes::One(view) => view,

@@ -87,7 +87,7 @@ pipelines! {
         compact: ScanPipelines = make.scan("SCAN_VISIBILITY");
         /// Every cluster as a visible one.
         list_clusters: Arc<Pipeline> = make.lists("cluster/list_clusters.comp");
-        /// Lights into clustering space.
+        /// Takes lights into clustering space.
         transform_lights: Arc<Pipeline> = make.lists("assign/transform_lights.comp");
         /// Empties what counting fills in any order.
         clear_lists: Arc<Pipeline> = make.lists("assign/clear_lists.comp");
@@ -97,13 +97,13 @@ pipelines! {
         read_masks: [Arc<Pipeline>; 2] = make.both("assign/read_masks.comp", "WRITE_LISTS");
         /// Prefix sum of the lengths of lists.
         light_offsets: ScanPipelines = make.scan("SCAN_LIST_LENGTHS");
-        /// Sorts the lists.
+        /// Sorts the lists of lights.
         sort_lists: Arc<Pipeline> = make.lists("assign/sort_lists.comp");
     }
 }
 
 pipelines! {
-    /// What assignment other than by brute force runs besides.
+    /// What hierarchy and scatter run more than brute force does.
     pub struct AcceleratedPipelines, made by accelerated with make {
         /// Marks the blocks that hold visible clusters.
         mark_blocks: Arc<Pipeline> = make.lists("cull/mark_blocks.comp");

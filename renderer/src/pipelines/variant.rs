@@ -87,7 +87,7 @@ impl Variant {
             .with("COUNTERS", u32::from(self.counting))
     }
 
-    /// Those of shaders that build lists.
+    /// Definitions for shaders that build lists.
     pub(super) fn list_defines(&self) -> Defines {
         let assigner = match self.assigner {
             Assigner::Brute => "ASSIGN_BRUTE",
@@ -97,7 +97,7 @@ impl Variant {
         self.defines().with("ASSIGN", assigner)
     }
 
-    /// Those of shaders that ask what a sphere meets besides.
+    /// Definitions for shaders that ask what a sphere meets.
     pub(super) fn test_defines(&self) -> Defines {
         let boxes = self.cells == Some(CellShape::Box);
         let nearest = matches!(self.test, SphereTest::Exact | SphereTest::Box);

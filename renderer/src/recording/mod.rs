@@ -154,7 +154,7 @@ impl Recording {
         &self.name
     }
 
-    /// All fields.
+    /// All fields of the recording's file.
     pub fn file(&self) -> &RecordingFile {
         &self.file
     }
@@ -179,7 +179,7 @@ impl Recording {
         self.file.rain.as_ref()
     }
 
-    /// One name a view, in the order of [`Recording::views`].
+    /// Names of the views, in the order of [`Recording::views`].
     pub fn view_names(&self) -> Vec<&str> {
         match &self.file.hmd {
             Some(hmd) => hmd.eyes.iter().map(|eye| eye.name.as_str()).collect(),

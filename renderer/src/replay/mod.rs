@@ -94,7 +94,7 @@ pub struct RunResult {
     pub device: DeviceInfo,
     /// How the machine fared in the temporal runs.
     pub conditions: Conditions,
-    /// When it began.
+    /// Time when the run began.
     pub started: SystemTime,
     /// How long it took.
     pub duration: Duration,

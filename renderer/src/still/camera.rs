@@ -24,9 +24,9 @@ pub enum Viewpoint<'a> {
 /// A camera placed by hand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placed {
-    /// Where it is, world space, metres.
+    /// Place of the camera, world space, metres.
     pub eye: DVec3,
-    /// What it looks at, world space, metres.
+    /// Place that the camera looks at, world space, metres.
     pub target: DVec3,
     /// Field of view along the longer side, radians.
     pub fov: f64,
@@ -113,7 +113,7 @@ impl Camera {
         )))
     }
 
-    /// Its name, given those of the views.
+    /// Name of the camera, given those of the views.
     pub fn name(self, views: &[String]) -> String {
         match self {
             Self::View(view) => views[view].clone(),

@@ -6,15 +6,15 @@ use crate::pipelines::DebugPipelines;
 use crate::targets::TargetName;
 use crate::vk::Buffer;
 
-/// What is drawn.
+/// What is drawn for an onlooker.
 pub struct Drawing<'a> {
-    /// With what.
+    /// Pipelines that draw it.
     pub pipelines: &'a DebugPipelines,
     /// Index of the camera among the views.
     pub view: usize,
-    /// Which of [`DebugPipelines::pixel_clusters`] looks pixels up; `None` where there are no clusters.
+    /// Index into [`DebugPipelines::pixel_clusters`] of what looks pixels up; `None` where there are no clusters.
     pub lookup: Option<usize>,
-    /// In which clusterings.
+    /// Clusterings that pixels are looked up in.
     pub clusterings: Vec<usize>,
     /// Vertex buffer of [`crate::pipelines::Line`], and how many.
     pub lines: Option<(&'a Buffer, u32)>,
@@ -22,7 +22,7 @@ pub struct Drawing<'a> {
     pub spheres: bool,
 }
 
-/// Where results go.
+/// Buffers that results go to.
 pub struct Outputs<'a> {
     /// Colours of the surfaces.
     pub clay: &'a Buffer,

@@ -28,11 +28,11 @@ pub struct Context {
     pub device: ash::Device,
     /// The one queue, for graphics, compute and transfer. [`Context::submit`] takes its lock.
     pub queue: vk::Queue,
-    /// Family of [`Context::queue`].
+    /// Queue family of [`Context::queue`].
     pub queue_family: u32,
     /// What the device can hold.
     pub limits: Limits,
-    /// Name, driver and hardware.
+    /// Name, driver and hardware of the device.
     pub info: DeviceInfo,
     physical: vk::PhysicalDevice,
     debug: Option<ext::debug_utils::Device>,

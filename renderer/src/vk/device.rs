@@ -133,14 +133,14 @@ fn roll(devices: &[Named]) -> String {
 /// One line of a [`DeviceListing`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ListedDevice {
-    /// What `--device` takes.
+    /// Index that `--device` takes.
     pub index: usize,
-    /// Name and driver.
+    /// Name and driver of the device.
     #[serde(flatten)]
     pub info: DeviceInfo,
     /// Why it cannot run the renderer, if so.
     pub unusable: Option<String>,
-    /// What it can hold.
+    /// Limits of what the device can hold.
     pub limits: Limits,
 }
 
@@ -148,7 +148,7 @@ pub struct ListedDevice {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct DeviceListing {
-    /// In the loader's order, which `--device INDEX` counts by.
+    /// Devices in the loader's order, which `--device INDEX` counts by.
     pub devices: Vec<ListedDevice>,
 }
 

@@ -8,13 +8,13 @@ use std::ffi::CStr;
 /// Name and driver of a device, as recorded with every run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct DeviceInfo {
-    /// As the driver gives it.
+    /// Name of the device as the driver gives it.
     pub name: String,
-    /// Driver name.
+    /// Name of the driver.
     pub driver: String,
     /// The driver's own version text, or its packed number where it gives none.
     pub driver_version: String,
-    /// Highest Vulkan version, `major.minor.patch`.
+    /// Highest Vulkan version that the device has, `major.minor.patch`.
     pub api_version: String,
     /// What tells it from others of its name.
     #[serde(flatten)]

@@ -29,7 +29,7 @@ pub(super) struct Most {
     pub side: u32,
 }
 
-/// [`upload_textures`] within bounds.
+/// Uploads as [`upload_textures`] does, within bounds of memory.
 pub(super) fn upload_in_chunks(
     context: &Arc<Context>,
     images: &[scene::Image],

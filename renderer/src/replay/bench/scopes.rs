@@ -16,11 +16,11 @@ use std::fmt;
 pub struct ScopesRow {
     /// Name of the run: the method, with the lighting behind it where there are several.
     pub run: String,
-    /// How many frames.
+    /// Number of frames.
     pub frames: usize,
     /// GPU time of the frame with all scopes, milliseconds: median over frames of the least of the turns.
     pub all_ms: f64,
-    /// The same with the scope of the frame alone.
+    /// GPU time of the frame with the scope of the frame alone, milliseconds: median likewise.
     pub frame_ms: f64,
     /// Median over frames of the ratio of the two.
     pub ratio: f64,

@@ -15,9 +15,9 @@ const MAX_ZEROS: u64 = 1 << 22;
 pub(super) struct Accessor<'a> {
     /// Its place in the file.
     index: usize,
-    /// Elements.
+    /// Number of elements.
     pub count: usize,
-    /// Components an element.
+    /// Components of an element.
     pub lanes: usize,
     component: ComponentType,
     normalized: bool,

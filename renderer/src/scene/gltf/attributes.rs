@@ -18,16 +18,16 @@ use super::skin::Influences;
 pub(super) struct Attributes<'a> {
     pub document: &'a Document,
     pub json: &'a json::mesh::Primitive,
-    /// By morph target.
+    /// Weights of the morph targets, by their order.
     pub weights: &'a [f32],
 }
 
 /// The vertices read, of all that there are.
 #[derive(Clone)]
 pub(super) struct Wanted {
-    /// Those of each attribute.
+    /// Number of elements that each attribute has.
     pub count: usize,
-    /// Those in use.
+    /// Vertices in use.
     pub range: Range<usize>,
 }
 
@@ -55,7 +55,7 @@ impl<'a> Attributes<'a> {
         Ok(accessor)
     }
 
-    /// Positions.
+    /// Reads positions.
     pub fn read_positions(
         &self,
         positions: &Accessor,

@@ -25,11 +25,11 @@ pub(super) type TexCoords = [Option<u32>; 2];
 
 /// The materials that primitives use.
 pub(super) struct Materials {
-    /// In the document's order; the default one comes last where it is needed.
+    /// Materials in the document's order; the default one comes last where it is needed.
     pub list: Vec<Material>,
     /// By place in the document: the place in `list`.
     places: BTreeMap<usize, u32>,
-    /// By material.
+    /// The TEXCOORD_n that each material reads.
     pub tex_coords: Vec<TexCoords>,
     /// What [`TextureRef::image`] counts: images of the document, the first readable of which is meant, and how it is read.
     images: Vec<(Choice, Content)>,

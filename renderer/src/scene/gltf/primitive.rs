@@ -26,7 +26,7 @@ const EXPANSION: u64 = 256;
 
 /// A primitive to build.
 pub(super) struct Job {
-    /// Into [`Placed::shapes`].
+    /// Index into [`Placed::shapes`].
     pub shape: usize,
     primitive: usize,
     json: json::mesh::Primitive,
@@ -43,7 +43,7 @@ impl Job {
 /// A built primitive.
 pub(super) struct Built {
     pub mesh: Mesh,
-    /// Its material reads coordinates that it does not have.
+    /// Whether the material reads coordinates that the primitive does not have.
     pub lacks_uv: bool,
 }
 

@@ -51,46 +51,46 @@ const NOT_DRAWN: &[&str] = &[
 /// A corner of a face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) struct Corner {
-    /// Into [`Geometry::positions`].
+    /// Index into [`Geometry::positions`].
     pub position: u32,
-    /// Into [`Geometry::coordinates`], or [`NONE`].
+    /// Index into [`Geometry::coordinates`], or [`NONE`].
     pub coordinates: u32,
-    /// Into [`Geometry::normals`], or [`NONE`].
+    /// Index into [`Geometry::normals`], or [`NONE`].
     pub normal: u32,
 }
 
 /// A polygon.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Face {
-    /// Into [`Geometry::corners`], three at least.
+    /// Range of [`Geometry::corners`], three at least.
     pub corners: Range<usize>,
-    /// Where it stands, from 1.
+    /// Line of the face, from 1.
     pub line: usize,
 }
 
 /// Faces that are drawn together.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Group {
-    /// Into [`Geometry::materials`]; `None` where no `usemtl` stands before.
+    /// Index into [`Geometry::materials`]; `None` where no `usemtl` stands before.
     pub material: Option<usize>,
-    /// Into [`Geometry::faces`].
+    /// Range of [`Geometry::faces`].
     pub faces: Range<usize>,
 }
 
 /// What an OBJ file holds.
 #[derive(Debug, Default)]
 pub(super) struct Geometry {
-    /// Metres; not finite where the file has no position.
+    /// Positions of vertices, metres; not finite where the file has no position.
     pub positions: Vec<[f32; 3]>,
-    /// By position, linear; empty where no vertex has a colour.
+    /// Colours by position, linear; empty where no vertex has a colour.
     pub colors: Vec<[u8; 4]>,
     /// v up the image.
     pub coordinates: Vec<[f32; 2]>,
-    /// Of any length; of none where the file has no normal.
+    /// Normals of any length; of none where the file has no normal.
     pub normals: Vec<[f32; 3]>,
     pub corners: Vec<Corner>,
     pub faces: Vec<Face>,
-    /// In order, none without a face.
+    /// Groups of faces in order, none without a face.
     pub groups: Vec<Group>,
     /// Names after `usemtl` with the line of the first.
     pub materials: Vec<(String, usize)>,

@@ -10,13 +10,13 @@ pub(super) const SIDE: usize = 256;
 /// What a pattern says about one point of its tile.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Texel {
-    /// sRGB-encoded colour, 0..1.
+    /// Colour of the texel, sRGB-encoded, 0..1.
     pub(super) color: [f32; 3],
-    /// Coverage, 0..1.
+    /// Coverage of the texel, 0..1.
     pub(super) alpha: f32,
     /// Height above the surface, in tile sides.
     pub(super) height: f32,
-    /// Perceptual roughness.
+    /// Perceptual roughness of the texel.
     pub(super) roughness: f32,
     /// 0 dielectric to 1 metal.
     pub(super) metal: f32,
@@ -30,12 +30,12 @@ impl Texel {
         Self { color, alpha: 1.0, height: 0.0, roughness, metal: 0.0, glow: 0.0 }
     }
 
-    /// The same, raised.
+    /// This texel, raised.
     pub(super) fn raised(self, height: f32) -> Self {
         Self { height, ..self }
     }
 
-    /// The same with another coverage.
+    /// This texel with another coverage.
     pub(super) fn covering(self, alpha: f32) -> Self {
         Self { alpha, ..self }
     }
