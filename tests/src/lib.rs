@@ -1,5 +1,6 @@
 //! What the whole-program tests share: running the binary, running the library, reference data.
 
+pub mod program;
 pub mod scenes;
 
 use flate2::read::GzDecoder;
