@@ -87,15 +87,15 @@ pub struct AssignCounts {
 // Costs in tests of brute force, which takes about 0.8 ns a test on two cores of lavapipe, where `bench assign` measured
 // them.
 
-/// Of culling a light.
-const COST_CULL: f64 = 12.0;
-/// Of the dispatches that follow culling.
+/// Cost of culling a light.
+const COST_CULL_LIGHT: f64 = 12.0;
+/// Cost of the dispatches of scatter that follow culling.
 const COST_SCATTER: f64 = 1.2e6;
-/// Of a packet of scatter, with the candidates that it takes to find it and the bits that it leaves: five times its tests.
+/// Cost of a packet of scatter, with the candidates that it takes to find it and the bits that it leaves: five times its tests.
 const COST_PACKET: f64 = 5.0 * (ASSIGN_WORKGROUP * ASSIGN_WORKGROUP) as f64;
-/// Of the dispatches that build the hierarchy.
+/// Cost of the dispatches that build the hierarchy.
 const COST_HIERARCHY: f64 = 4e6;
-/// Of a test by the hierarchy, whose threads each read nodes of their own.
+/// Cost of a test by the hierarchy, whose threads each read nodes of their own.
 const COST_NODE: f64 = 60.0;
 /// Tests of the hierarchy for each light that it finds.
 const NODES_FOUND: f64 = 7.0;
@@ -108,10 +108,10 @@ impl AssignCounts {
             [self.lights, self.visible_clusters, self.light_indices, self.packets].map(f64::from);
         match assigner {
             Assigner::Brute => lights * visible,
-            Assigner::Scatter => COST_SCATTER + COST_CULL * lights + COST_PACKET * packets,
+            Assigner::Scatter => COST_SCATTER + COST_CULL_LIGHT * lights + COST_PACKET * packets,
             Assigner::Hierarchy => {
                 let nodes = NODES_FOUND * indices + NODES_DESCENT * visible;
-                COST_HIERARCHY + COST_CULL * lights + COST_NODE * nodes
+                COST_HIERARCHY + COST_CULL_LIGHT * lights + COST_NODE * nodes
             }
         }
     }

@@ -69,7 +69,7 @@ buffers! {
         .storage("LightVolume light_volumes[]")
         .texels("volume", Element::Struct(LightVolume::INFO))
         .sized(|s| bytes::<LightVolume>(s.lights.into()));
-    /// A bit per cluster.
+    /// Whether each cluster of the grid is visible, a bit a cluster.
     ClusterBits = buffer("cluster_bits", Owner::Clustering)
         .storage("uint cluster_bits[]")
         .sized(|s| bytes::<u32>(s.words()));
@@ -170,16 +170,16 @@ buffers! {
     BlockBits = buffer("block_bits", Owner::Clustering)
         .storage("uint block_bits[]")
         .texels("block", Element::Word)
-        .sized(|s| bytes::<u32>(s.culled(BLOCK_WORDS.into())));
+        .sized(|s| bytes::<u32>(s.for_culled_lights(BLOCK_WORDS.into())));
     /// Lights that may meet a visible cluster, a bit each; behind them, how many there are before each word.
     LightBits = buffer("light_bits", Owner::Clustering)
         .storage("uint light_bits[]")
-        .sized(|s| bytes::<u32>(2 * s.culled_words()));
+        .sized(|s| bytes::<u32>(2 * s.culled_light_words()));
     /// Lights that may meet a visible cluster, ascending.
     Candidates = buffer("candidates", Owner::Clustering)
         .storage("Candidate candidates[]")
         .texels("candidate", Element::Struct(Candidate::INFO))
-        .sized(|s| bytes::<Candidate>(s.culled(s.lights.into())));
+        .sized(|s| bytes::<Candidate>(s.for_culled_lights(s.lights.into())));
     /// Lights of the frame, world space.
     Lights = buffer("lights", Owner::Engine)
         .texels("light", Element::Struct(LightData::INFO))
@@ -195,7 +195,7 @@ buffers! {
 }
 
 impl BufferName {
-    /// All that is declared of it.
+    /// All that is declared of the buffer.
     pub fn info(self) -> &'static BufferInfo {
         &BUFFERS[self as usize]
     }

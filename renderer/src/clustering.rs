@@ -18,7 +18,7 @@ pub const FRAME_SLOTS: usize = 2;
 /// Smallest buffer made, so that every binding has one.
 const MIN_BUFFER: u64 = 256;
 
-/// A buffer of `size` bytes with the name and the uses that are declared of it.
+/// Makes a buffer of `size` bytes with the debug name and the uses that are declared of `name`.
 pub fn make_buffer(context: &Arc<Context>, name: BufferName, size: u64, memory: Memory) -> Result<Buffer> {
     let info = name.info();
     let size = if info.uniform.is_some() { size } else { size.max(MIN_BUFFER).next_multiple_of(4) };

@@ -31,7 +31,7 @@ pub const SCAN_BLOCK: u32 = 1024;
 pub const ASSIGN_WORKGROUP: u32 = 64;
 /// Threads of a workgroup of culling.
 pub const CULL_WORKGROUP: u32 = 64;
-/// Packets along x of a dispatch; more go along y.
+/// Packets of lights along x of a dispatch; more go along y.
 pub const PACKET_ROW: u32 = 1 << 15;
 /// Lists along x of a dispatch with a workgroup a list; more go along y.
 pub const LIST_ROW: u32 = 1 << 15;
@@ -40,31 +40,31 @@ pub const BLOCK_COLUMNS: u32 = 16;
 /// Words of all columns of blocks, with the coarser ones behind them, two by two joined, down to one. Behind these lie the
 /// highest and the lowest visible cell.
 const BLOCK_EXTREMES: u32 = (4 * BLOCK_COLUMNS * BLOCK_COLUMNS - 1) / 3;
-/// All words of blocks.
+/// Words of all blocks of clusters, with the highest and the lowest visible cell.
 pub const BLOCK_WORDS: u32 = BLOCK_EXTREMES + 6;
 /// Groups of clusters that one thread takes a candidate to.
 pub const GROUP_CHUNK: u32 = 16;
 /// Threads of a cluster, among which the hierarchy's subtrees are dealt out.
 pub const TREE_SPLIT: u32 = 8;
-/// Slot of the dispatch size with a thread a list.
+/// Index of the dispatch size with a thread a list.
 pub const DISPATCH_LISTS: u32 = 0;
 /// Index of the dispatch size with a thread a list where light bits fit, else nothing.
 pub const DISPATCH_MASKED: u32 = 1;
-/// Slot of the dispatch size with a workgroup a list where they do not fit, else nothing.
+/// Index of the dispatch size with a workgroup a list where light bits do not fit, else nothing.
 pub const DISPATCH_UNMASKED: u32 = 2;
-/// Slot of the dispatch size that finds who meets whom.
+/// Index of the dispatch size that finds who meets whom.
 pub const DISPATCH_MEET: u32 = 3;
 /// Index of the dispatch size that finds once more who meets whom where light bits do not fit, else nothing.
 pub const DISPATCH_MEET_AGAIN: u32 = 4;
-/// Slot of the dispatch size of the prefix sum over list lengths.
+/// Index of the dispatch size of the prefix sum over list lengths.
 pub const DISPATCH_SCAN: u32 = 5;
-/// Slot of the dispatch size that takes candidates to groups.
+/// Index of the dispatch size that takes candidates to groups.
 pub const DISPATCH_GROUPS: u32 = 6;
-/// Slot of the dispatch size of the sort.
+/// Index of the dispatch size of the sort.
 pub const DISPATCH_SORT: u32 = 7;
-/// Slot of the dispatch size of its prefix sums.
+/// Index of the dispatch size of the prefix sums of the sort.
 pub const DISPATCH_SORT_SCAN: u32 = 8;
-/// First slot of the dispatch sizes of the light hierarchy's depths.
+/// Index of the first of the dispatch sizes of the light hierarchy's depths.
 pub const DISPATCH_NODES: u32 = 9;
 /// How many sizes of indirect dispatches there are.
 pub const DISPATCH_COUNT: u32 = DISPATCH_NODES + MAX_TREE_DEPTH;

@@ -17,7 +17,7 @@ use std::sync::Arc;
 
 /// A scene ready to draw.
 pub struct GpuScene {
-    /// [`crate::scene::Vertex`] of all primitives.
+    /// Vertices of all primitives, each a [`crate::scene::Vertex`].
     pub vertices: Buffer,
     /// 32-bit indices of all primitives.
     pub indices: Buffer,
@@ -28,7 +28,7 @@ pub struct GpuScene {
     /// No instance reaches farther from `origin`, metres.
     pub reach: f64,
     placements: Vec<Placement>,
-    /// What is drawn where the device culls, as [`Drawables::all`] has it.
+    /// Draw commands of all drawables, as [`Drawables::all`] has them.
     pub drawables: Buffer,
     /// What can be drawn at once.
     pub batches: Vec<Batch>,

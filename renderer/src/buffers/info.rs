@@ -42,7 +42,7 @@ impl BufferView {
     /// How many ways of viewing a buffer there are.
     pub const COUNT: u32 = Self::ALL.len() as u32;
 
-    /// What a descriptor set holds for it.
+    /// Type of descriptor that a set holds for the view.
     pub fn descriptor(self) -> vk::DescriptorType {
         match self {
             Self::Storage => vk::DescriptorType::STORAGE_BUFFER,
@@ -97,7 +97,7 @@ impl Texels {
 pub struct BufferInfo {
     /// In messages, debug names and growth events; that of its member in GLSL, where it has one.
     pub name: &'static str,
-    /// Who makes and writes it.
+    /// Who makes and writes the buffer.
     pub owner: Owner,
     /// GLSL members of the storage buffer.
     pub storage: Option<&'static str>,

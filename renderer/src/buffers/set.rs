@@ -4,13 +4,13 @@ use super::{BUFFER_COUNT, BufferName};
 use std::fmt;
 use std::ops::{BitOr, Sub};
 
-/// Some of the buffers.
+/// A set of the buffers that shaders see.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
 pub struct BufferSet(u64);
 
 const _: () = assert!(BUFFER_COUNT <= u64::BITS as usize, "a set has a bit for each buffer");
 
-/// The set of `names`.
+/// The set of the buffers `names`.
 pub const fn set(names: &[BufferName]) -> BufferSet {
     let (mut bits, mut place) = (0, 0);
     while place < names.len() {
@@ -29,7 +29,7 @@ impl BufferSet {
         self.0 |= set(&[name]).0;
     }
 
-    /// Whether one is among them.
+    /// Whether a buffer is in the set.
     pub fn contains(self, name: BufferName) -> bool {
         self.0 & set(&[name]).0 != 0
     }

@@ -58,13 +58,13 @@ impl ClusteringSizes {
     }
 
     /// `size` where lights are culled before they are assigned, else nothing.
-    pub(super) fn culled(&self, size: u64) -> u64 {
+    pub(super) fn for_culled_lights(&self, size: u64) -> u64 {
         if self.assigner == Assigner::Brute { 0 } else { size }
     }
 
     /// Words of a bit for each light that may be a candidate.
-    pub(super) fn culled_words(&self) -> u64 {
-        self.culled(self.lights.into()).div_ceil(32)
+    pub(super) fn culled_light_words(&self) -> u64 {
+        self.for_culled_lights(self.lights.into()).div_ceil(32)
     }
 
     /// Lights in the hierarchy.
@@ -109,7 +109,7 @@ impl ClusteringSizes {
 
     /// Items of the longest prefix sum.
     fn scan_items(&self) -> u64 {
-        self.words().max(self.visible()).max(self.digit_counts()).max(self.culled_words())
+        self.words().max(self.visible()).max(self.digit_counts()).max(self.culled_light_words())
     }
 
     /// The most entries that the device's buffers hold.

@@ -42,7 +42,7 @@ pub struct Axis {
     pub role: Role,
     /// What rules call its values by.
     pub values: Values,
-    /// Whether the runs of a method differ along it.
+    /// Whether the runs of a method differ along the axis.
     pub applies: fn(&Method) -> bool,
     /// How many values a configuration gives.
     count: fn(&Config) -> usize,

@@ -38,7 +38,7 @@ fn interleave(places: [u32; 3]) -> u32 {
     (0..30).map(|bit| (places[bit % 3] >> (bit / 3) & 1) << bit).sum()
 }
 
-/// The order of candidates by key; equal keys keep theirs.
+/// Numbers of candidates in the order of their keys; equal keys keep the order of candidates.
 pub fn sorted(keys: &[u32]) -> Vec<u32> {
     let mut order: Vec<u32> = (0..keys.len() as u32).collect();
     order.sort_by_key(|&candidate| keys[candidate as usize]);
@@ -61,7 +61,7 @@ pub struct Node {
 pub struct Tree {
     /// The nodes of each depth from 1 on, as far as there are lights under them.
     pub depths: Vec<Vec<Node>>,
-    /// The lights in order.
+    /// Volumes of the lights in the order of the tree.
     pub volumes: Vec<LightVolume>,
 }
 

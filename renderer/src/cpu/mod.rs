@@ -16,7 +16,7 @@
 //! ```
 //!
 //! Where f32 may fall on the other side of a boundary, a twin given an epsilon says so itself ([`Marks`],
-//! [`LightLists`], [`FoundLists`], [`Culled`], [`Descent`], [`Seen`]); everything else must agree exactly.
+//! [`LightLists`], [`FoundLists`], [`CulledLights`], [`Descent`], [`Seen`]); everything else must agree exactly.
 
 mod assign;
 mod attenuation;
@@ -35,7 +35,7 @@ pub use attenuation::attenuation;
 pub use brdf::{Surface, reflected};
 pub use compact::{Compacted, NOT_VISIBLE, compact};
 pub use cull::{Seen, cull};
-pub use cull_lights::{Blocks, Candidate, CellRange, Culled, cull_lights, mark_blocks};
+pub use cull_lights::{Blocks, Candidate, CellRange, CulledLights, cull_lights, mark_blocks};
 pub use hierarchy::{Descent, Key, Node, Tree, build_nodes, descend, keys, sorted};
 pub use lists::{FoundLists, read_masks, sort_lists};
 pub use mark::{DepthImage, Marks, mark};

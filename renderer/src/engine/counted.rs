@@ -12,7 +12,7 @@ use ash::vk;
 /// Everything counted of one clustering in one frame.
 pub struct Counted {
     state: ClusteringState,
-    /// What the shaders counted.
+    /// Counters of the clustering, as the shaders counted.
     pub counters: DeviceCounts,
     lights_per_fragment: Vec<u32>,
     visible_clusters: Vec<u32>,

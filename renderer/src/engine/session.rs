@@ -35,7 +35,7 @@ pub struct Session {
     pub batches: Batches,
     /// Everything that is drawn of the scene where the device culls.
     pub drawables: Drawables,
-    /// What stage `cull` fills.
+    /// Buffers that stage `cull` fills.
     pub draws: DrawBuffers,
     /// Pipelines made so far.
     pub store: PipelineStore,

@@ -17,9 +17,9 @@ pub struct Frustum {
     pub y0: f64,
     /// Tangent of the top side.
     pub y1: f64,
-    /// -far, metres, below z1.
+    /// Z of the far plane: -far, metres, below z1.
     pub z0: f64,
-    /// -near, metres, below 0.
+    /// Z of the near plane: -near, metres, below 0.
     pub z1: f64,
 }
 

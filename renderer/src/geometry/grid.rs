@@ -10,9 +10,9 @@ const RIM: f64 = 1e-9;
 /// What the cells of a grid look like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CellShape {
-    /// Pieces of a frustum.
+    /// Cells are pieces of a frustum.
     Frustum,
-    /// Boxes along the axes.
+    /// Cells are boxes along the axes.
     Box,
 }
 
@@ -28,9 +28,9 @@ pub enum ClusterSpace {
     },
     /// Clusters divide an axis-aligned box evenly.
     Orthographic {
-        /// Lowest corner, metres.
+        /// Lowest corner of the grid, metres.
         min: DVec3,
-        /// Highest corner, metres.
+        /// Highest corner of the grid, metres.
         max: DVec3,
     },
 }
@@ -41,7 +41,7 @@ pub enum ClusterSpace {
 /// towards the camera, in orthographic ones.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
-    /// World from clustering space.
+    /// Pose that takes clustering to world space.
     pub pose: Pose,
     /// Shape in clustering space.
     pub space: ClusterSpace,

@@ -17,7 +17,7 @@ use std::ops::Mul;
 pub struct Pose {
     /// World position, metres; of the camera itself, not of its mirror image.
     pub position: DVec3,
-    /// World-from-local rotation, unit; likewise.
+    /// World-from-local rotation, unit; of the camera itself, not of its mirror image.
     pub rotation: DQuat,
     /// What the world is reflected at.
     pub mirror: Option<Mirror>,

@@ -11,11 +11,11 @@ gpu_struct! {
         pub world_from_view: [[f32; 4]; 4],
         /// Into the space of the clustering that this view looks up; rigid, but for a view in a mirror.
         pub clustering_from_view: [[f32; 4]; 4],
-        /// Left and bottom tangent.
+        /// Left and bottom tangent of the frustum.
         pub tangent_min: [f32; 2],
         /// Right minus left, top minus bottom tangent.
         pub tangent_extent: [f32; 2],
-        /// Width and height, pixels.
+        /// Width and height of the view, pixels.
         pub resolution: [u32; 2],
         /// Distance of the near plane, metres, positive.
         pub near: f32,
@@ -122,7 +122,7 @@ gpu_struct! {
 gpu_struct! {
     /// A metallic-roughness material.
     pub struct MaterialData {
-        /// Linear colour and alpha.
+        /// Linear base colour and alpha.
         pub base_color: [f32; 4],
         /// Linear radiance that the surface emits.
         pub emissive: [f32; 3],
@@ -160,7 +160,7 @@ gpu_struct! {
 gpu_struct! {
     /// An indirect draw, as the device takes it (VkDrawIndexedIndirectCommand).
     pub struct DrawCommand {
-        /// Indices of the primitive.
+        /// Number of the primitive's indices.
         pub index_count: u32,
         /// Number of instances drawn.
         pub instance_count: u32,
@@ -188,11 +188,11 @@ gpu_struct! {
 gpu_struct! {
     /// What the device found out about one clustering in one frame.
     pub struct ClusteringState {
-        /// Visible clusters there are.
+        /// Number of visible clusters there are.
         pub visible_total: u32,
-        /// Visible clusters that fitted.
+        /// Number of visible clusters that fitted.
         pub visible: u32,
-        /// Light indices there are.
+        /// Number of light indices there are.
         pub index_total: u32,
         /// Lights that lists are made of: all, or those that may meet a visible cluster.
         pub candidates: u32,
@@ -262,9 +262,9 @@ gpu_struct! {
     pub struct PixelData {
         /// Along the view's -Z, metres; infinity where nothing was hit.
         pub distance: f32,
-        /// Length of the list of its cluster.
+        /// Length of the list of the cluster of the pixel.
         pub light_count: u32,
-        /// Fragments in its cluster.
+        /// Fragments in the cluster of the pixel.
         pub fragment_count: u32,
         /// Linear cluster index; all ones where nothing was hit.
         pub cluster_index: u32,

@@ -70,7 +70,7 @@ pub struct Pipeline {
     pub handle: vk::Pipeline,
     /// Layout that the pipeline is bound with.
     pub layout: PipelineLayout,
-    /// The shader that names it.
+    /// Path of the shader that names the pipeline.
     pub name: String,
     /// What tools for captures show.
     pub label: CString,

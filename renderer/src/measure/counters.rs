@@ -36,9 +36,9 @@ counters! {
     fragments_without_cluster,
     /// Evaluations of one light for one fragment.
     lighting_computations,
-    /// Those closer than R1.
+    /// Lighting computations whose light is closer than R1.
     needed_computations,
-    /// Sphere against cluster tests.
+    /// Tests of a light's volume against a cluster or a node.
     intersection_tests,
 }
 

@@ -9,7 +9,7 @@ use half::f16;
 pub struct ClusterRecord {
     /// Linear index ix + Dx*(iy + Dy*iz).
     pub index: u32,
-    /// Fragments (samples) marked in it.
+    /// Fragments (samples) marked in the cluster.
     pub fragments: u32,
     /// Length of its light list.
     pub lights: u32,
@@ -68,7 +68,7 @@ pub struct StageTime {
 /// All stages of one frame of one temporal run, parents before children, in execution order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrameTimes {
-    /// Temporal run, from 0.
+    /// Number of the temporal run, from 0.
     pub run: u32,
     /// Frame number in the recording.
     pub frame: u32,
@@ -97,7 +97,7 @@ pub struct ViewPixels {
     pub cluster_index: Vec<u32>,
     /// Cells a side of the grid that the index counts in; zeros without clusters.
     pub dimensions: [u32; 3],
-    /// World from view, column-major.
+    /// Matrix that takes view to world space.
     pub world_from_view: glam::DMat4,
     /// Clip from view (reversed depth), column-major.
     pub clip_from_view: glam::DMat4,

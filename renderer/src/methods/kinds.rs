@@ -7,7 +7,7 @@ use crate::geometry::CellShape;
 /// A kind of method: what is behind a name but for the sizes.
 #[derive(Debug)]
 pub struct Kind {
-    /// The name without sizes.
+    /// Name of the kind: that of its methods without sizes.
     pub name: &'static str,
     /// What the numbers behind the name are, in order.
     pub sizes: &'static [&'static str],
@@ -17,7 +17,7 @@ pub struct Kind {
     pub title: &'static str,
     /// What the kind does, a line for help and README.
     pub about: &'static str,
-    /// How views share its groups.
+    /// How views share the clusterings of the method.
     pub sharing: Sharing,
     /// How shading walks a list: a file in `shaders-glsl/lookup`.
     pub lookup: &'static str,

@@ -44,7 +44,7 @@ impl Push {
 pub struct DepthImage {
     /// The image with all its layers.
     pub image: vk::Image,
-    /// The set that binds a layer of it.
+    /// Descriptor set that binds one layer of the image.
     pub set: vk::DescriptorSet,
 }
 

@@ -10,7 +10,7 @@ use ash::vk;
 pub struct Declared {
     /// Buffers that are read alone.
     pub reads: BufferSet,
-    /// Written, and perhaps read.
+    /// Buffers that are written, and perhaps read.
     pub writes: BufferSet,
 }
 

@@ -94,7 +94,7 @@ pub struct Timestamps {
 pub struct ScopeSpan {
     /// Start and end in ticks of the device's clock; `None` without timestamps.
     pub gpu_ticks: Option<[u64; 2]>,
-    /// When its recording began.
+    /// Time on the host when the recording of the scope began.
     pub cpu_start: Instant,
     /// How long its recording took.
     pub cpu_time: Duration,

@@ -41,7 +41,7 @@ pub enum SurfacePipelines<'a> {
 }
 
 impl<'a> SurfacePipelines<'a> {
-    /// All of them.
+    /// All pipelines that may draw.
     fn all(self) -> impl Iterator<Item = &'a Pipeline> + Clone {
         let (one, by_textures) = match self {
             Self::One(pipeline) => (Some(pipeline), None),
@@ -51,7 +51,7 @@ impl<'a> SurfacePipelines<'a> {
             .chain(by_textures.into_iter().flat_map(|all| all.values().map(|pipeline| &**pipeline)))
     }
 
-    /// That for materials with these textures.
+    /// The pipeline for materials with these textures.
     fn of(self, textures: TextureSet) -> &'a Pipeline {
         match self {
             Self::One(pipeline) => pipeline,
@@ -63,7 +63,7 @@ impl<'a> SurfacePipelines<'a> {
 /// A pass that draws surfaces of the scene.
 #[derive(Clone, Copy)]
 pub struct SurfacePass<'a> {
-    /// The views it draws.
+    /// The views that the pass draws.
     pub eyes: Eyes,
     /// The colour targets that it draws into, in the order of the shaders' locations, and what becomes of each.
     pub colors: &'a [(TargetName, ColorUse)],

@@ -84,7 +84,7 @@ impl ColorTarget {
 pub struct ViewTargets {
     /// Reversed depth of the view.
     pub depth: ImageLayer,
-    /// `depth`, for compute shaders.
+    /// Descriptor set that binds `depth` for compute shaders.
     pub depth_set: vk::DescriptorSet,
     /// Colour targets in the order of [`TargetName::ALL`].
     pub colors: Vec<ColorTarget>,
@@ -119,11 +119,11 @@ pub enum Draws<'a> {
     Listed(&'a [DrawList]),
     /// Everything, by commands that stage `cull` fills, a part for each view and one for all at once.
     Indirect {
-        /// The scene's.
+        /// Drawables of the scene.
         drawables: &'a Drawables,
-        /// An order for each view.
+        /// Order of the transparent drawables for each view.
         orders: &'a [DrawableOrder],
-        /// The commands.
+        /// Buffers that hold the commands.
         buffers: &'a DrawBuffers,
     },
 }
@@ -134,7 +134,7 @@ pub struct Frame<'a> {
     pub pipelines: &'a Pipelines,
     /// The scene that is drawn.
     pub scene: &'a GpuScene,
-    /// What each view draws of it.
+    /// What each view draws of the scene.
     pub draws: Draws<'a>,
     /// What each view is rendered into.
     pub targets: &'a [ViewTargets],

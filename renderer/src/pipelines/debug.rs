@@ -17,7 +17,7 @@ use std::sync::Arc;
 pub struct Line {
     /// One end of the line, world space, metres.
     pub from: [f32; 3],
-    /// The other end, metres.
+    /// Other end of the line, world space, metres.
     pub to: [f32; 3],
     /// Linear colour of the line.
     pub tint: [f32; 3],
@@ -38,7 +38,7 @@ pub struct DebugPipelines {
     pub pixel_clusters: [Arc<Pipeline>; 2],
     /// Lines: through everything, then where nothing hides them.
     pub lines: [Arc<Pipeline>; 2],
-    /// Influence volumes of lights.
+    /// Draws the influence volumes of lights.
     pub spheres: Arc<Pipeline>,
     /// All pipelines, each once.
     pub all: Vec<Arc<Pipeline>>,

@@ -25,7 +25,7 @@ pub struct SceneSummary {
     pub instances: u64,
     /// Materials by alpha mode.
     pub materials: MaterialCounts,
-    /// Textures that materials use.
+    /// Number of textures that materials use.
     pub textures: u64,
     /// Images in the order of [`Scene::images`].
     pub images: Vec<ImageSummary>,

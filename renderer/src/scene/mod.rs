@@ -87,13 +87,13 @@ pub enum AlphaMode {
 /// Place of a texture among the five of a material.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TextureSlot {
-    /// sRGB colour times alpha.
+    /// Base colour and alpha, sRGB.
     BaseColor = 0,
     /// Linear: roughness in G, metalness in B.
     MetallicRoughness = 1,
     /// Tangent-space normal, linear.
     Normal = 2,
-    /// Linear: occlusion in R.
+    /// Occlusion in R, linear.
     Occlusion = 3,
     /// Radiance, sRGB.
     Emissive = 4,
@@ -104,7 +104,7 @@ pub enum TextureSlot {
 pub struct Material {
     /// Name in the source, for messages and debug labels.
     pub name: String,
-    /// Linear colour and alpha.
+    /// Linear base colour and alpha.
     pub base_color: [f32; 4],
     /// 0 dielectric to 1 metal.
     pub metallic: f32,
@@ -116,7 +116,7 @@ pub struct Material {
     pub normal_scale: f32,
     /// 0 no occlusion to 1 full.
     pub occlusion_strength: f32,
-    /// Opaque, masked or blended.
+    /// Whether the material is opaque, masked or blended.
     pub alpha_mode: AlphaMode,
     /// Below this alpha a masked fragment is discarded.
     pub alpha_cutoff: f32,
@@ -133,7 +133,7 @@ pub struct Material {
 pub struct TextureRef {
     /// Index into [`Scene::images`].
     pub image: u32,
-    /// Filter and wrap modes.
+    /// How texels are filtered, and coordinates wrapped.
     pub sampler: Sampler,
     /// Index into [`Vertex::uv`], 0 or 1.
     pub uv_set: u32,
@@ -150,14 +150,14 @@ pub struct Sampler {
     pub nearest: bool,
 }
 
-/// What lies outside 0..1.
+/// What a texture shows outside of coordinates 0..1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Wrap {
     /// The image is repeated.
     Repeat,
     /// Tiles, every other one mirrored.
     Mirror,
-    /// The edge goes on.
+    /// The edge of the image goes on.
     Clamp,
 }
 

@@ -4,7 +4,7 @@ use super::assign_equality::random_lights;
 use super::*;
 use crate::assign::{sort_passes, tree_depth};
 use crate::config::{Assign, Test};
-use crate::cpu::{Candidate, CellRange, Culled, FoundLists, Visible};
+use crate::cpu::{Candidate, CellRange, CulledLights, FoundLists, Visible};
 use crate::geometry::{LightVolume, SphereTest, VolumeKind};
 use crate::gpu_interface::{self as device, BLOCK_WORDS, COUNTER_COUNT, GridData, TREE_WIDTH};
 use crate::measure::DeviceCounts;
@@ -14,18 +14,18 @@ use std::mem::offset_of;
 /// How small a margin is too close to call, metres and cells: f32 is good for a tenth of it here.
 const EPSILON: f64 = 2e-3;
 
-/// A device that has culled the lights of a case.
-struct Culling {
+/// A device that has culled lights, with what they were culled for.
+struct CulledDevice {
     bench: Bench,
     grid: Grid,
     visible: Vec<u32>,
     test: SphereTest,
     lights: u32,
-    /// Of all lights.
+    /// Volumes of all lights.
     volumes: Vec<LightVolume>,
 }
 
-impl Culling {
+impl CulledDevice {
     fn new(assign: Assign, (method, grid): (Method, Grid), test: &str, lights: &[PointLight]) -> Self {
         let clusters = grid.cluster_count();
         let bits = random_bits(clusters, 7, 11);
@@ -129,13 +129,13 @@ fn cases() -> Vec<((Method, Grid), &'static str, Vec<PointLight>)> {
 #[test]
 fn culled_lights_equal_their_twin() {
     for (case, (method, test, lights)) in cases().into_iter().enumerate() {
-        let mut culling = Culling::new(Assign::Scatter, method, test, &lights);
+        let mut culling = CulledDevice::new(Assign::Scatter, method, test, &lights);
         let blocks = cpu::mark_blocks(&culling.grid, &culling.visible);
         let words = culling.bench.download(BufferName::BlockBits, BLOCK_WORDS as usize);
         assert!(words == blocks.words(), "case {case}: other blocks");
         let (device, volumes) = culling.candidates();
         let twin = cpu::cull_lights(&culling.visible(), &culling.volumes, culling.test, EPSILON);
-        let Culled { candidates, borderline } = twin;
+        let CulledLights { candidates, borderline } = twin;
         let sure = |list: &[Candidate]| -> Vec<Candidate> {
             list.iter().filter(|c| borderline.binary_search(&c.light).is_err()).copied().collect()
         };
@@ -152,7 +152,7 @@ fn culled_lights_equal_their_twin() {
 #[test]
 fn the_hierarchy_equals_its_twin() {
     for (case, (method, test, lights)) in cases().into_iter().enumerate() {
-        let mut culling = Culling::new(Assign::Hierarchy, method, test, &lights);
+        let mut culling = CulledDevice::new(Assign::Hierarchy, method, test, &lights);
         let (candidates, volumes) = culling.candidates();
         culling.bench.run(|r, frame| hierarchy::build_hierarchy(r, frame, given()));
         let order = sorted_as_their_twin(&mut culling, &volumes);
@@ -171,7 +171,7 @@ fn the_hierarchy_equals_its_twin() {
 }
 
 /// Checks keys and order, and gives the order: numbers of candidates.
-fn sorted_as_their_twin(culling: &mut Culling, volumes: &[LightVolume]) -> Vec<u32> {
+fn sorted_as_their_twin(culling: &mut CulledDevice, volumes: &[LightVolume]) -> Vec<u32> {
     let twin = cpu::keys(&culling.grid, volumes, culling.lights, 0.02);
     let half = ((sort_passes(culling.lights) - 1) & 1) * culling.lights;
     let words = culling.bench.download(BufferName::SortItems, 2 * (half as usize + volumes.len()));
@@ -190,7 +190,7 @@ fn sorted_as_their_twin(culling: &mut Culling, volumes: &[LightVolume]) -> Vec<u
     order
 }
 
-fn nodes_equal(culling: &mut Culling, tree: &cpu::Tree) {
+fn nodes_equal(culling: &mut CulledDevice, tree: &cpu::Tree) {
     let depths = tree_depth(culling.lights);
     let first = |depth: u32| (TREE_WIDTH.pow(depth) - 1) / (TREE_WIDTH - 1);
     let last = first(depths - 1) as usize + tree.depths[depths as usize - 2].len();
@@ -225,7 +225,7 @@ fn lists_equal(device: &Lists, twin: &FoundLists, light_of: impl Fn(u32) -> u32)
 #[test]
 fn scattering_equals_its_twin() {
     for (case, (method, test, lights)) in cases().into_iter().enumerate() {
-        let mut culling = Culling::new(Assign::Scatter, method, test, &lights);
+        let mut culling = CulledDevice::new(Assign::Scatter, method, test, &lights);
         let (candidates, volumes) = culling.candidates();
         let tests = culling.count();
         let state = culling.state();
@@ -255,7 +255,7 @@ fn scattering_equals_its_twin() {
 fn lists_are_read_off_their_bits_as_by_their_twin() {
     for assign in [Assign::Hierarchy, Assign::Scatter] {
         let (method, test, lights) = cases().remove(0);
-        let mut culling = Culling::new(assign, method, test, &lights);
+        let mut culling = CulledDevice::new(assign, method, test, &lights);
         let (candidates, _) = culling.candidates();
         if assign == Assign::Hierarchy {
             culling.bench.run(|r, frame| hierarchy::build_hierarchy(r, frame, given()));
@@ -281,7 +281,7 @@ fn lists_are_read_off_their_bits_as_by_their_twin() {
 #[test]
 fn lists_in_any_order_are_sorted_as_by_their_twin() {
     let (method, test, lights) = cases().remove(0);
-    let mut culling = Culling::new(Assign::Scatter, method, test, &lights);
+    let mut culling = CulledDevice::new(Assign::Scatter, method, test, &lights);
     culling.bench.engine.clusterings[0].host[0][BufferName::Grid]
         .write(offset_of!(GridData, mask_capacity) as u64, &[0u32]);
     culling.bench.run(|r, frame| {

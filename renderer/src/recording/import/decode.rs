@@ -43,7 +43,7 @@ pub(super) enum Event {
 pub(super) struct Decoded {
     /// The main camera; the debug camera is not kept.
     pub(super) camera: Camera,
-    /// Events by frame.
+    /// Events of each frame.
     pub(super) frames: Vec<Vec<Event>>,
 }
 
