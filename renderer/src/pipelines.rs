@@ -92,7 +92,7 @@ pub struct PipelineStore {
     views: ViewSet,
     texture_sets: [BTreeSet<TextureSet>; 3],
     made: BTreeMap<String, Arc<Pipeline>>,
-    /// Those asked for since [`Self::take_asked`], by their numbers.
+    /// Pipelines asked for since [`Self::take_asked`], by their numbers.
     asked: BTreeMap<usize, Arc<Pipeline>>,
 }
 

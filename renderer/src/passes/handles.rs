@@ -72,12 +72,12 @@ pub struct LightLists {
 }
 
 impl LightLists {
-    /// Of no clustering.
+    /// Light lists of no clustering.
     pub const NONE: Self = Self { clusterings: 0 };
     /// What a method without lists has: every view looks all lights up.
     pub const ALL_LIGHTS: Self = Self { clusterings: u32::MAX };
 
-    /// Of the clustering whose visible clusters were given lists.
+    /// Light lists of the clustering whose visible clusters were given lists.
     pub(super) fn of(visible: VisibleClusters) -> Self {
         Self { clusterings: 1 << visible.clustering }
     }

@@ -12,7 +12,7 @@ struct Maker<'a> {
     variant: &'a Variant,
     /// Defines of shaders that build lists.
     defines: Defines,
-    /// The same of shaders that ask what a volume meets.
+    /// Defines of shaders that ask what a volume meets.
     tests: Defines,
 }
 
@@ -25,12 +25,12 @@ impl Maker<'_> {
         self.store.compute(path, &self.tests)
     }
 
-    /// Twice: with `define` 0 and 1.
+    /// A shader that builds lists, twice: with `define` 0 and 1.
     fn both(&mut self, path: &str, define: &'static str) -> Result<[Arc<Pipeline>; 2]> {
         twice(self.store, path, &self.defines, define)
     }
 
-    /// The same of a shader that asks what a volume meets.
+    /// A shader that asks what a volume meets, twice: with `define` 0 and 1.
     fn both_tests(&mut self, path: &str, define: &'static str) -> Result<[Arc<Pipeline>; 2]> {
         twice(self.store, path, &self.tests, define)
     }

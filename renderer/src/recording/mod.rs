@@ -239,12 +239,12 @@ fn of_frame<T>(rows: &[T], frame: u32) -> Option<&T> {
     if let [row] = rows { Some(row) } else { rows.get(frame as usize) }
 }
 
-/// The same plane with its normal's length, 1 within the format's tolerance, made 1.
+/// A mirror's plane with its normal's length, 1 within the format's tolerance, made 1.
 fn unit_mirror(mirror: &Mirror) -> Mirror {
     Mirror { normal: mirror.normal.normalize(), ..*mirror }
 }
 
-/// The same pose with its quaternion's length, 1 within the format's tolerance, made 1.
+/// A pose with its quaternion's length, 1 within the format's tolerance, made 1.
 fn unit(pose: &Pose) -> Pose {
     Pose { rotation: pose.rotation.normalize(), ..*pose }
 }

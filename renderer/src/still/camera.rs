@@ -125,9 +125,9 @@ impl Camera {
 
 /// The bird's eye stands this far beside, above and behind the head, in reaches.
 const PLACE: DVec3 = DVec3::new(0.35, 0.8, 0.5);
-/// It looks at the point this far ahead of the head, in reaches.
+/// The camera from above looks at the point this far ahead of the head, in reaches.
 const TARGET: f64 = 0.35;
-/// Its field of view along the longer side, radians.
+/// Field of view of the camera from above along the longer side, radians.
 const FOV: f64 = 1.2;
 
 /// A camera behind and above the head of `views`, level with the horizon, that sees what lies up to `reach` metres

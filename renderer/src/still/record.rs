@@ -8,7 +8,7 @@ use crate::vk::Buffer;
 
 /// What is drawn for an onlooker.
 pub struct Drawing<'a> {
-    /// Pipelines that draw it.
+    /// Pipelines of overlays and maps.
     pub pipelines: &'a DebugPipelines,
     /// Index of the camera among the views.
     pub view: usize,
@@ -16,7 +16,7 @@ pub struct Drawing<'a> {
     pub lookup: Option<usize>,
     /// Clusterings that pixels are looked up in.
     pub clusterings: Vec<usize>,
-    /// Vertex buffer of [`crate::pipelines::Line`], and how many.
+    /// Vertex buffer of [`crate::pipelines::Line`], and how many lines it holds.
     pub lines: Option<(&'a Buffer, u32)>,
     /// Whether the lights' volumes are drawn.
     pub spheres: bool,

@@ -147,7 +147,7 @@ impl Context {
     /// Refuses a device on which nothing can be timed.
     ///
     /// # Errors
-    /// It has no timestamps.
+    /// The queue has no timestamps.
     pub fn require_timestamps(&self) -> Result<()> {
         if self.limits.timestamp_valid_bits > 0 {
             return Ok(());

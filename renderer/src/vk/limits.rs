@@ -16,7 +16,7 @@ pub struct DeviceInfo {
     pub driver_version: String,
     /// Highest Vulkan version that the device has, `major.minor.patch`.
     pub api_version: String,
-    /// What tells it from others of its name.
+    /// What tells the device from others of its name.
     #[serde(flatten)]
     pub hardware: Device,
 }

@@ -56,7 +56,7 @@ pub enum Space {
 }
 
 impl Space {
-    /// Its sizes, in the order of a method's name.
+    /// Sizes of the cells, in the order of a method's name.
     pub fn sizes(&self) -> Vec<f64> {
         match *self {
             Self::Persp { pixels } | Self::Tiled { pixels } => vec![pixels],

@@ -13,7 +13,7 @@ const MAX_ZEROS: u64 = 1 << 22;
 
 /// A range-checked accessor.
 pub(super) struct Accessor<'a> {
-    /// Its place in the file.
+    /// Index of the accessor in the file.
     index: usize,
     /// Number of elements.
     pub count: usize,

@@ -65,7 +65,7 @@ struct Planner<'a> {
     document: &'a Document,
     left_out: &'a mut LeftOut,
     jobs: Vec<Job>,
-    /// That the jobs will take, at most.
+    /// Bytes that the jobs will take, at most.
     bytes: u64,
 }
 

@@ -42,7 +42,7 @@ impl Texel {
 }
 
 /// The images of one pattern.
-pub(super) struct TextureSet {
+pub(super) struct PatternImages {
     /// Colour and coverage, sRGB.
     pub(super) base_color: Image,
     /// Occlusion, roughness and metalness in R, G and B.
@@ -54,7 +54,7 @@ pub(super) struct TextureSet {
 }
 
 /// Evaluates a pattern at the centre of every texel and makes its images with their mips.
-pub(super) fn bake(name: &str, pattern: impl Fn(f32, f32) -> Texel) -> TextureSet {
+pub(super) fn bake(name: &str, pattern: impl Fn(f32, f32) -> Texel) -> PatternImages {
     let centre = |k: usize| (k as f32 + 0.5) / SIDE as f32;
     let texels: Vec<Texel> = (0..SIDE * SIDE).map(|k| pattern(centre(k % SIDE), centre(k / SIDE))).collect();
     let image = |suffix: &str, srgb: bool, texel: &dyn Fn(usize, &Texel) -> [f32; 4]| {
@@ -63,7 +63,7 @@ pub(super) fn bake(name: &str, pattern: impl Fn(f32, f32) -> Texel) -> TextureSe
     };
     let opaque = |[r, g, b]: [f32; 3], a: f32| [r, g, b, a];
     let slopes = Slopes(&texels);
-    TextureSet {
+    PatternImages {
         base_color: image("color", true, &|_, t| opaque(t.color, t.alpha)),
         surface: image("surface", false, &|k, t| [slopes.occlusion(k), t.roughness, t.metal, 1.0]),
         normal: image("normal", false, &|k, _| slopes.normal(k)),
