@@ -5,7 +5,7 @@
 //! lights whose cells hold nothing visible; what is left, the candidates, the hierarchy puts into a tree, built anew each
 //! frame, down which each visible cluster goes, and scatter hands out to groups of visible clusters.
 
-use crate::gpu_interface::{ASSIGN_GROUP, BLOCK_COLUMNS, SORT_BITS, TREE_WIDTH};
+use crate::gpu_interface::{ASSIGN_WORKGROUP, BLOCK_COLUMNS, SORT_BITS, TREE_WIDTH};
 use crate::nearest;
 use clap::ValueEnum;
 use schemars::JsonSchema;
@@ -74,28 +74,28 @@ impl fmt::Display for Assigner {
 /// What decides which way is cheapest: counts of one clustering in one frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AssignCounts {
-    /// Lights.
+    /// Number of lights.
     pub lights: u32,
     /// Clusters to build lists for.
     pub visible_clusters: u32,
     /// Lengths of all lists together.
     pub light_indices: u32,
-    /// Tiles that scatter tests.
-    pub tiles: u32,
+    /// Packets of lights that scatter tests against a group of clusters each.
+    pub packets: u32,
 }
 
 // Costs in tests of brute force, which takes about 0.8 ns a test on two cores of lavapipe, where `bench assign` measured
 // them.
 
-/// Of culling a light.
-const COST_CULL: f64 = 12.0;
-/// Of the dispatches that follow culling.
+/// Cost of culling a light.
+const COST_CULL_LIGHT: f64 = 12.0;
+/// Cost of the dispatches of scatter that follow culling.
 const COST_SCATTER: f64 = 1.2e6;
-/// Of a tile of scatter, with the candidates that it takes to find it and the bits that it leaves: five times its tests.
-const COST_TILE: f64 = 5.0 * (ASSIGN_GROUP * ASSIGN_GROUP) as f64;
-/// Of the dispatches that build the hierarchy.
+/// Cost of a packet of scatter, with the candidates that it takes to find it and the bits that it leaves: five times its tests.
+const COST_PACKET: f64 = 5.0 * (ASSIGN_WORKGROUP * ASSIGN_WORKGROUP) as f64;
+/// Cost of the dispatches that build the hierarchy.
 const COST_HIERARCHY: f64 = 4e6;
-/// Of a test by the hierarchy, whose threads each read nodes of their own.
+/// Cost of a test by the hierarchy, whose threads each read nodes of their own.
 const COST_NODE: f64 = 60.0;
 /// Tests of the hierarchy for each light that it finds.
 const NODES_FOUND: f64 = 7.0;
@@ -104,14 +104,14 @@ const NODES_DESCENT: f64 = 90.0;
 
 impl AssignCounts {
     fn cost(&self, assigner: Assigner) -> f64 {
-        let [lights, visible, indices, tiles] =
-            [self.lights, self.visible_clusters, self.light_indices, self.tiles].map(f64::from);
+        let [lights, visible, indices, packets] =
+            [self.lights, self.visible_clusters, self.light_indices, self.packets].map(f64::from);
         match assigner {
             Assigner::Brute => lights * visible,
-            Assigner::Scatter => COST_SCATTER + COST_CULL * lights + COST_TILE * tiles,
+            Assigner::Scatter => COST_SCATTER + COST_CULL_LIGHT * lights + COST_PACKET * packets,
             Assigner::Hierarchy => {
                 let nodes = NODES_FOUND * indices + NODES_DESCENT * visible;
-                COST_HIERARCHY + COST_CULL * lights + COST_NODE * nodes
+                COST_HIERARCHY + COST_CULL_LIGHT * lights + COST_NODE * nodes
             }
         }
     }
@@ -129,19 +129,19 @@ const MAX_MASK_WORDS: u64 = 16 << 20;
 
 /// Words of bits for the lists of `visible` clusters, a bit per light, as far as they are kept at all.
 pub fn mask_capacity(lights: u32, visible: u32) -> u64 {
-    let tiles = u64::from(lights.div_ceil(ASSIGN_GROUP));
-    let words_per_tile = u64::from(ASSIGN_GROUP / 32);
-    (u64::from(visible) * tiles * words_per_tile).min(MAX_MASK_WORDS)
+    let packets = u64::from(lights.div_ceil(ASSIGN_WORKGROUP));
+    let words_per_packet = u64::from(ASSIGN_WORKGROUP / 32);
+    (u64::from(visible) * packets * words_per_packet).min(MAX_MASK_WORDS)
 }
 
 /// Lights of groups are listed as far as they take no more entries than this, or four a light.
 const MIN_GROUP_CAPACITY: u64 = 1 << 20;
 
-/// Entries for the lights of `groups` groups of visible clusters, each group's list filled up to whole tiles.
+/// Entries for the lights of `groups` groups of visible clusters, each group's list filled up to whole packets.
 pub fn group_capacity(lights: u32, groups: u64) -> u64 {
-    let tile = u64::from(ASSIGN_GROUP);
-    let most = groups * u64::from(lights).next_multiple_of(tile);
-    most.min((4 * u64::from(lights)).max(MIN_GROUP_CAPACITY)).next_multiple_of(tile)
+    let packet = u64::from(ASSIGN_WORKGROUP);
+    let most = groups * u64::from(lights).next_multiple_of(packet);
+    most.min((4 * u64::from(lights)).max(MIN_GROUP_CAPACITY)).next_multiple_of(packet)
 }
 
 /// Clusters of a block, along each axis: a block's column has a word, and a block along z a bit.
@@ -212,10 +212,10 @@ mod tests {
     }
 
     #[test]
-    fn lights_of_groups_fill_whole_tiles() {
+    fn lights_of_groups_fill_whole_packets() {
         for (lights, groups) in [(1, 1), (65, 3), (1000, 256), (1_000_000, 256), (5, 0)] {
             let entries = group_capacity(lights, groups);
-            assert_eq!(entries % u64::from(ASSIGN_GROUP), 0);
+            assert_eq!(entries % u64::from(ASSIGN_WORKGROUP), 0);
             assert!(entries >= u64::from(lights) || groups == 0);
         }
     }
@@ -232,8 +232,8 @@ mod tests {
 
     #[test]
     fn few_lights_are_assigned_by_brute_force_and_many_are_not() {
-        let counts = |lights, light_indices, tiles| {
-            cheapest(&[AssignCounts { lights, visible_clusters: 850, light_indices, tiles }])
+        let counts = |lights, light_indices, packets| {
+            cheapest(&[AssignCounts { lights, visible_clusters: 850, light_indices, packets }])
         };
         assert_eq!(counts(1, 100, 1), Assigner::Brute);
         assert_eq!(counts(1000, 14_732, 44), Assigner::Brute);

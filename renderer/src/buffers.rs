@@ -12,19 +12,19 @@
 //! writes with `grid`, are the depths between the slices of a perspective grid, so that a fragment's slice and the planes
 //! that lights are tested against are the same numbers, whatever a device makes of logarithms.
 //!
-//! Where the device culls, `views`, `instances`, `draw_slots` and `draw_order` go to `draw_commands` and
+//! Where the device culls, `views`, `instances`, `drawables` and `draw_order` go to `draw_commands` and
 //! `drawn_instances` before all that (cull).
 //!
 //! All ways go to `list_lengths` by way of `light_masks` where these have room. Hierarchy and scatter first put the lights
 //! that may meet a visible cluster into `candidates` (cull_lights: `block_bits`, `light_bits`); then the hierarchy makes
-//! `sort_items`, `digit_counts`, `tree_volumes`, `tree_lights` and `light_nodes`, scatter `groups`, `tile_groups` and
+//! `sort_items`, `digit_counts`, `tree_volumes`, `tree_lights` and `light_nodes`, scatter `groups`, `packet_groups` and
 //! `group_lights`.
 
 mod info;
 mod set;
 mod sizes;
 
-pub use info::{BufferInfo, Element, Owner, Texels, View};
+pub use info::{BufferInfo, BufferView, Element, Owner, Texels};
 pub use set::{BufferSet, set};
 pub use sizes::ClusteringSizes;
 
@@ -43,11 +43,11 @@ macro_rules! buffers {
         pub enum BufferName { $($(#[$doc])* $name),+ }
 
         impl BufferName {
-            /// All of them, in the order of their bindings.
+            /// All buffers, in the order of their bindings.
             pub const ALL: [Self; BUFFER_COUNT] = [$(Self::$name),+];
         }
 
-        /// How many there are.
+        /// How many buffers shaders see.
         pub const BUFFER_COUNT: usize = [$(stringify!($name)),+].len();
 
         static BUFFERS: [BufferInfo; BUFFER_COUNT] = [$($info),+];
@@ -69,7 +69,7 @@ buffers! {
         .storage("LightVolume light_volumes[]")
         .texels("volume", Element::Struct(LightVolume::INFO))
         .sized(|s| bytes::<LightVolume>(s.lights.into()));
-    /// A bit per cluster.
+    /// Whether each cluster of the grid is visible, a bit a cluster.
     ClusterBits = buffer("cluster_bits", Owner::Clustering)
         .storage("uint cluster_bits[]")
         .sized(|s| bytes::<u32>(s.words()));
@@ -77,7 +77,7 @@ buffers! {
     WordRanks = buffer("word_ranks", Owner::Clustering)
         .storage("uint word_ranks[]")
         .sized(|s| bytes::<u32>(s.words()));
-    /// Linear indices, ascending.
+    /// Linear indices of the visible clusters, ascending.
     VisibleClusters = buffer("visible_clusters", Owner::Clustering)
         .storage("uint visible_clusters[]")
         .sized(|s| bytes::<u32>(s.visible()));
@@ -136,7 +136,7 @@ buffers! {
     SortItems = buffer("sort_items", Owner::Clustering)
         .storage("uvec2 sort_items[]")
         .sized(|s| bytes::<[u32; 2]>(2 * s.tree_lights()));
-    /// Items of the sort by digit, then by block.
+    /// Number of items of the sort by digit, then by block.
     DigitCounts = buffer("digit_counts", Owner::Clustering)
         .storage("uint digit_counts[]")
         .sized(|s| bytes::<u32>(s.digit_counts()));
@@ -145,7 +145,7 @@ buffers! {
         .storage("LightVolume tree_volumes[]")
         .texels("tree_volume", Element::Struct(LightVolume::INFO))
         .sized(|s| bytes::<LightVolume>(s.tree_lights()));
-    /// The numbers of those among the candidates.
+    /// The candidate of each of `tree_volumes`, by its number.
     TreeLights = buffer("tree_lights", Owner::Clustering)
         .storage("uint tree_lights[]")
         .sized(|s| bytes::<u32>(s.tree_lights()));
@@ -158,11 +158,11 @@ buffers! {
     Groups = buffer("groups", Owner::Clustering)
         .storage("ClusterGroup groups[]")
         .sized(|s| bytes::<ClusterGroup>(s.groups()));
-    /// The group of each tile of lights.
-    TileGroups = buffer("tile_groups", Owner::Clustering)
-        .storage("uint tile_groups[]")
-        .sized(|s| bytes::<u32>(s.group_tiles()));
-    /// The candidates of each group, in whole tiles.
+    /// The group of each packet of lights.
+    PacketGroups = buffer("packet_groups", Owner::Clustering)
+        .storage("uint packet_groups[]")
+        .sized(|s| bytes::<u32>(s.group_packets()));
+    /// The candidates of each group, in whole packets.
     GroupLights = buffer("group_lights", Owner::Clustering)
         .storage("uint group_lights[]")
         .sized(|s| bytes::<u32>(s.group_lights()));
@@ -170,45 +170,45 @@ buffers! {
     BlockBits = buffer("block_bits", Owner::Clustering)
         .storage("uint block_bits[]")
         .texels("block", Element::Word)
-        .sized(|s| bytes::<u32>(s.culled(BLOCK_WORDS.into())));
+        .sized(|s| bytes::<u32>(s.for_culled_lights(BLOCK_WORDS.into())));
     /// Lights that may meet a visible cluster, a bit each; behind them, how many there are before each word.
     LightBits = buffer("light_bits", Owner::Clustering)
         .storage("uint light_bits[]")
-        .sized(|s| bytes::<u32>(2 * s.culled_words()));
+        .sized(|s| bytes::<u32>(2 * s.culled_light_words()));
     /// Lights that may meet a visible cluster, ascending.
     Candidates = buffer("candidates", Owner::Clustering)
         .storage("Candidate candidates[]")
         .texels("candidate", Element::Struct(Candidate::INFO))
-        .sized(|s| bytes::<Candidate>(s.culled(s.lights.into())));
-    /// The frame's lights.
+        .sized(|s| bytes::<Candidate>(s.for_culled_lights(s.lights.into())));
+    /// Lights of the frame, world space.
     Lights = buffer("lights", Owner::Engine)
         .texels("light", Element::Struct(LightData::INFO))
         .sized(|s| bytes::<LightData>(s.lights.into()));
     /// What is drawn of the scene where the device culls.
-    DrawSlots = buffer("draw_slots", Owner::Scene).storage("DrawCommand draw_slots[]");
-    /// How many of them there are, and the order of the transparent ones.
+    Drawables = buffer("drawables", Owner::Scene).storage("DrawCommand drawables[]");
+    /// How many drawables there are, and the order of the transparent ones.
     DrawOrder = buffer("draw_order", Owner::Frame).storage("DrawCounts draw_counts; uint draw_order[]");
-    /// What stage `cull` lets through of the slots: a part for each view, and one for all at once.
+    /// What stage `cull` lets through of the drawables: a part for each view, and one for all at once.
     DrawCommands = buffer("draw_commands", Owner::Session).storage("DrawCommand draw_commands[]");
     /// The instances that those draw.
     DrawnInstances = buffer("drawn_instances", Owner::Session).storage("uint drawn_instances[]");
 }
 
 impl BufferName {
-    /// All that is declared of it.
+    /// All that is declared of the buffer.
     pub fn info(self) -> &'static BufferInfo {
         &BUFFERS[self as usize]
     }
 
     /// The binding of one way to read it; not every binding is taken.
-    pub fn binding(self, view: View) -> u32 {
-        View::COUNT * self as u32 + view as u32
+    pub fn binding(self, view: BufferView) -> u32 {
+        BufferView::COUNT * self as u32 + view as u32
     }
 
     /// What a binding stands for.
-    pub fn bound_at(binding: u32) -> Option<(Self, View)> {
-        let name = Self::ALL.get((binding / View::COUNT) as usize)?;
-        Some((*name, View::ALL[(binding % View::COUNT) as usize]))
+    pub fn bound_at(binding: u32) -> Option<(Self, BufferView)> {
+        let name = Self::ALL.get((binding / BufferView::COUNT) as usize)?;
+        Some((*name, BufferView::ALL[(binding % BufferView::COUNT) as usize]))
     }
 }
 
@@ -224,11 +224,11 @@ mod tests {
     #[test]
     fn every_binding_says_whose_it_is() {
         for name in BufferName::ALL {
-            for view in View::ALL {
+            for view in BufferView::ALL {
                 assert_eq!(BufferName::bound_at(name.binding(view)), Some((name, view)));
             }
         }
-        assert_eq!(BufferName::bound_at(View::COUNT * BUFFER_COUNT as u32), None);
+        assert_eq!(BufferName::bound_at(BufferView::COUNT * BUFFER_COUNT as u32), None);
     }
 
     #[test]

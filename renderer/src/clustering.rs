@@ -4,7 +4,7 @@ mod host_data;
 
 pub use host_data::{grid_data, gridless_data, view_data};
 
-use crate::buffers::{BUFFER_COUNT, BufferName, BufferSet, ClusteringSizes, Owner, View, set};
+use crate::buffers::{BUFFER_COUNT, BufferName, BufferSet, BufferView, ClusteringSizes, Owner, set};
 use crate::layouts::{BoundBuffers, DescriptorSets, Pipeline};
 use crate::vk::{Buffer, Context, Memory, TexelView};
 use crate::{Error, Result};
@@ -12,13 +12,13 @@ use ash::vk;
 use std::ops::{Index, Range};
 use std::sync::Arc;
 
-/// Frames in flight.
-pub const SLOTS: usize = 2;
+/// How many frames may be in flight at once; each has a slot of its own.
+pub const FRAME_SLOTS: usize = 2;
 
 /// Smallest buffer made, so that every binding has one.
 const MIN_BUFFER: u64 = 256;
 
-/// A buffer of `size` bytes with the name and the uses that are declared of it.
+/// Makes a buffer of `size` bytes with the debug name and the uses that are declared of `name`.
 pub fn make_buffer(context: &Arc<Context>, name: BufferName, size: u64, memory: Memory) -> Result<Buffer> {
     let info = name.info();
     let size = if info.uniform.is_some() { size } else { size.max(MIN_BUFFER).next_multiple_of(4) };
@@ -48,14 +48,14 @@ impl Index<BufferName> for ClusteringBuffers {
 }
 
 /// A buffer that all clusterings share, as each frame in flight has it.
-pub type SharedBuffer<'a> = (BufferName, [&'a Buffer; SLOTS]);
+pub type SharedBuffer<'a> = (BufferName, [&'a Buffer; FRAME_SLOTS]);
 
 /// One clustering on the device.
 pub struct Clustering {
-    /// What shaders fill.
+    /// Buffers that shaders fill.
     pub buffers: ClusteringBuffers,
     /// What the host writes for each frame, one per frame in flight, mapped.
-    pub host: [ClusteringBuffers; SLOTS],
+    pub host: [ClusteringBuffers; FRAME_SLOTS],
     /// The views that look lights up here.
     pub views: Range<usize>,
     /// Clusters of this frame's grid.
@@ -64,15 +64,15 @@ pub struct Clustering {
     pub word_count: u32,
     /// Most visible clusters that fit.
     pub visible_capacity: u32,
-    handles: [[vk::Buffer; BUFFER_COUNT]; SLOTS],
-    sets: [Vec<vk::DescriptorSet>; SLOTS],
+    handles: [[vk::Buffer; BUFFER_COUNT]; FRAME_SLOTS],
+    sets: [Vec<vk::DescriptorSet>; FRAME_SLOTS],
     empty: BufferSet,
     pools: Vec<DescriptorSets>,
     texels: Texels,
 }
 
 impl Clustering {
-    /// Makes the buffers, and for each of `pipelines` the sets that bind what it uses of them.
+    /// Makes the buffers, and for each of `pipelines` the descriptor sets that bind what it uses of them.
     pub fn new(
         context: &Arc<Context>,
         shared: &[SharedBuffer],
@@ -101,7 +101,7 @@ impl Clustering {
             cluster_count: 0,
             word_count: 0,
             visible_capacity: sizes.capacities.visible_clusters,
-            sets: [const { vec![] }; SLOTS],
+            sets: [const { vec![] }; FRAME_SLOTS],
             empty: empty(sizes),
             pools: vec![],
             texels,
@@ -116,7 +116,7 @@ impl Clustering {
         let most = pipelines.iter().map(|pipeline| pipeline.number + 1).max().unwrap_or(0);
         for (slot, sets) in self.sets.iter_mut().enumerate() {
             sets.resize(most.max(sets.len()), vk::DescriptorSet::null());
-            for (pipeline, made) in pipelines.iter().zip(pool.sets.chunks(SLOTS)) {
+            for (pipeline, made) in pipelines.iter().zip(pool.sets.chunks(FRAME_SLOTS)) {
                 context.name(made[slot], &pipeline.name);
                 write(context, made[slot], pipeline, &self.handles[slot], &self.texels.handles);
                 sets[pipeline.number] = made[slot];
@@ -126,7 +126,7 @@ impl Clustering {
         Ok(())
     }
 
-    /// What passes bind in the frame in flight `slot`.
+    /// What passes bind for the frame in flight in `slot`.
     pub fn bound(&self, slot: usize) -> BoundBuffers<'_> {
         BoundBuffers { handles: &self.handles[slot], sets: &self.sets[slot], empty: self.empty }
     }
@@ -162,10 +162,11 @@ fn all_buffers<'a>(
 
 /// Sets for the frames in flight of each pipeline, one behind the other.
 fn allocate(context: &Arc<Context>, pipelines: &[Arc<Pipeline>]) -> Result<DescriptorSets> {
-    let layouts: Vec<_> = pipelines.iter().flat_map(|pipeline| [pipeline.layout.buffers; SLOTS]).collect();
-    let kinds = View::ALL.map(|view| {
+    let layouts: Vec<_> =
+        pipelines.iter().flat_map(|pipeline| [pipeline.layout.buffers; FRAME_SLOTS]).collect();
+    let kinds = BufferView::ALL.map(|view| {
         let uses = pipelines.iter().flat_map(|pipeline| pipeline.uses().views.keys());
-        (view.descriptor(), (SLOTS * uses.filter(|used| used.1 == view).count()) as u32)
+        (view.descriptor(), (FRAME_SLOTS * uses.filter(|used| used.1 == view).count()) as u32)
     });
     DescriptorSets::of(context, "clustering", &layouts, &kinds)
 }
@@ -179,7 +180,7 @@ fn write(
     texels: &[vk::BufferView; BUFFER_COUNT],
 ) {
     let views = &pipeline.uses().views;
-    let info = |&(name, _): &(BufferName, View)| {
+    let info = |&(name, _): &(BufferName, BufferView)| {
         [vk::DescriptorBufferInfo::default().buffer(handles[name as usize]).range(vk::WHOLE_SIZE)]
     };
     let infos: Vec<_> = views.keys().map(info).collect();
@@ -192,8 +193,8 @@ fn write(
                 .dst_binding(name.binding(view))
                 .descriptor_type(view.descriptor());
             match view {
-                View::Storage | View::Uniform => write.buffer_info(info),
-                View::Texels => write.texel_buffer_view(std::slice::from_ref(&texels[name as usize])),
+                BufferView::Storage | BufferView::Uniform => write.buffer_info(info),
+                BufferView::Texels => write.texel_buffer_view(std::slice::from_ref(&texels[name as usize])),
             }
         })
         .collect();

@@ -20,9 +20,9 @@ pub enum Culling {
 /// World-space box around an instance, metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WorldBox {
-    /// Its middle.
+    /// Middle of the box, world space, metres.
     pub center: DVec3,
-    /// Half its size.
+    /// Half the size of the box, metres.
     pub half_extent: DVec3,
 }
 

@@ -1,5 +1,5 @@
 //! What a view draws: instances grouped into batches, culled against the view's frustum, transparent ones
-//! sorted from far to near. Pure: no Vulkan. [`crate::draw_slots`] leaves culling to the device.
+//! sorted from far to near. Pure: no Vulkan. [`crate::drawables`] leaves culling to the device.
 
 use crate::culling::{ViewPlanes, WorldBox};
 use crate::geometry::views::View;
@@ -8,16 +8,16 @@ use crate::scene::{AlphaMode, Instance, Scene};
 /// How the surfaces of a draw are treated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SurfaceKind {
-    /// Alpha ignored.
+    /// Drawn whole: alpha is ignored.
     Opaque,
-    /// Alpha tested.
+    /// Drawn where alpha passes the test against the cut-off.
     Masked,
-    /// Blended.
+    /// Blended over what lies behind.
     Transparent,
 }
 
 impl SurfaceKind {
-    /// In drawing order.
+    /// All kinds, in drawing order.
     pub const ALL: [Self; 3] = [Self::Opaque, Self::Masked, Self::Transparent];
 }
 
@@ -34,15 +34,15 @@ impl From<AlphaMode> for SurfaceKind {
 /// Instances of one primitive that can share a draw call.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Batch {
-    /// Surface treatment.
+    /// How the surfaces are treated.
     pub kind: SurfaceKind,
-    /// Material.
+    /// Index of the material in the scene.
     pub material: u32,
-    /// First index.
+    /// First of the primitive's indices.
     pub first_index: u32,
-    /// Number of indices.
+    /// Number of the primitive's indices.
     pub index_count: u32,
-    /// Added to every index.
+    /// What is added to every index to find its vertex.
     pub vertex_offset: i32,
     /// Whether the instances mirror the primitive, which turns its faces around.
     pub mirrored: bool,
@@ -53,24 +53,24 @@ pub struct Batch {
 /// Consecutive instances of a batch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DrawRun {
-    /// Into [`Batches::batches`].
+    /// Index into [`Batches::batches`].
     pub batch: u32,
-    /// Into [`Batches::instances`].
+    /// Index of the first instance in [`Batches::instances`].
     pub first_instance: u32,
-    /// How many.
+    /// How many instances the run has.
     pub instance_count: u32,
 }
 
 /// A scene's instances in drawing order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Batches {
-    /// By kind, then material.
+    /// Batches by kind, then material.
     pub batches: Vec<Batch>,
     /// Instances of [`Scene::instances`] in drawing order.
     pub instances: Vec<u32>,
-    /// Each instance's batch, in drawing order.
+    /// Batch of each instance, in drawing order.
     pub batch_of: Vec<u32>,
-    /// Each instance's box, in drawing order.
+    /// Box around each instance, in drawing order.
     pub boxes: Vec<WorldBox>,
 }
 
@@ -112,14 +112,14 @@ impl Batches {
     }
 }
 
-/// The runs of one view, by kind. Keeps its memory from frame to frame.
+/// Runs of instances that one view draws, by kind; the memory is kept from frame to frame.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct DrawList {
-    /// By material.
+    /// Runs of opaque instances, by material.
     pub opaque: Vec<DrawRun>,
-    /// By material.
+    /// Runs of masked instances, by material.
     pub masked: Vec<DrawRun>,
-    /// From far to near.
+    /// Runs of transparent instances, from far to near.
     pub transparent: Vec<DrawRun>,
     far_to_near: Vec<(f64, u32)>,
     planes: Vec<ViewPlanes>,
@@ -135,7 +135,7 @@ impl DrawList {
         }
     }
 
-    /// Refills the list with what any of `views` may see; transparent instances are sorted for the first of them.
+    /// Refills the list with what any of `views` may see; transparent instances are sorted for the first view.
     pub fn update(&mut self, batches: &Batches, views: &[View]) {
         self.opaque.clear();
         self.masked.clear();

@@ -5,7 +5,7 @@ mod structs;
 
 pub use structs::{
     Candidate, ClusterGroup, ClusteringState, DispatchSize, DrawCommand, DrawCounts, GridData, InstanceData,
-    LightData, LightNode, LightVolume, MaterialData, PixelData, ViewData,
+    LightData, LightNode, LightVolume, MaterialData, PixelData, Push, ViewData,
 };
 
 use crate::geometry::VolumeKind;
@@ -15,7 +15,7 @@ use crate::measure::DeviceCounts;
 use crate::scene::TextureSlot;
 use std::fmt::Write as _;
 
-/// Descriptor set of the storage buffers, of what views some of them as texels, and of the uniform buffers.
+/// Descriptor set of a pipeline's buffers, as storage, texels or uniforms.
 pub const SET_BUFFERS: u32 = 0;
 /// Descriptor set of a material: its five textures and its [`MaterialData`].
 pub const SET_MATERIAL: u32 = 1;
@@ -24,49 +24,49 @@ pub const SET_DEPTH: u32 = 2;
 /// Rendering cameras of a frame, at most: a uniform buffer of 16 KiB, which every device binds, holds them.
 pub const MAX_VIEWS: u32 = 32;
 /// Threads of a workgroup of the prefix sum.
-pub const SCAN_GROUP: u32 = 256;
-/// Items that such a workgroup takes.
+pub const SCAN_WORKGROUP: u32 = 256;
+/// Items that a workgroup of the prefix sum takes.
 pub const SCAN_BLOCK: u32 = 1024;
-/// Threads of a workgroup of the assignment passes; visible clusters of a group, lights of a tile.
-pub const ASSIGN_GROUP: u32 = 64;
+/// Threads of a workgroup of the assignment passes; visible clusters of a group, lights of a packet.
+pub const ASSIGN_WORKGROUP: u32 = 64;
 /// Threads of a workgroup of culling.
-pub const CULL_GROUP: u32 = 64;
-/// Tiles along x of a dispatch; more go along y.
-pub const TILE_ROW: u32 = 1 << 15;
-/// The same of lists that have a workgroup each.
+pub const CULL_WORKGROUP: u32 = 64;
+/// Packets of lights along x of a dispatch; more go along y.
+pub const PACKET_ROW: u32 = 1 << 15;
+/// Lists along x of a dispatch with a workgroup a list; more go along y.
 pub const LIST_ROW: u32 = 1 << 15;
 /// Blocks of clusters along x and y, at most; along z there are up to 32, a bit each.
 pub const BLOCK_COLUMNS: u32 = 16;
 /// Words of all columns of blocks, with the coarser ones behind them, two by two joined, down to one. Behind these lie the
 /// highest and the lowest visible cell.
 const BLOCK_EXTREMES: u32 = (4 * BLOCK_COLUMNS * BLOCK_COLUMNS - 1) / 3;
-/// All words of blocks.
+/// Words of all blocks of clusters, with the highest and the lowest visible cell.
 pub const BLOCK_WORDS: u32 = BLOCK_EXTREMES + 6;
-/// Groups that one thread takes a candidate to.
+/// Groups of clusters that one thread takes a candidate to.
 pub const GROUP_CHUNK: u32 = 16;
 /// Threads of a cluster, among which the hierarchy's subtrees are dealt out.
 pub const TREE_SPLIT: u32 = 8;
-/// Slot of the dispatch size with a thread a list.
+/// Index of the dispatch size with a thread a list.
 pub const DISPATCH_LISTS: u32 = 0;
-/// The same where light bits fit, else nothing.
+/// Index of the dispatch size with a thread a list where light bits fit, else nothing.
 pub const DISPATCH_MASKED: u32 = 1;
-/// Slot of the dispatch size with a workgroup a list where they do not fit, else nothing.
+/// Index of the dispatch size with a workgroup a list where light bits do not fit, else nothing.
 pub const DISPATCH_UNMASKED: u32 = 2;
-/// Slot of the dispatch size that finds who meets whom.
+/// Index of the dispatch size that finds who meets whom.
 pub const DISPATCH_MEET: u32 = 3;
-/// The same once more where light bits do not fit, else nothing.
+/// Index of the dispatch size that finds once more who meets whom where light bits do not fit, else nothing.
 pub const DISPATCH_MEET_AGAIN: u32 = 4;
-/// Slot of the dispatch size of the prefix sum over list lengths.
+/// Index of the dispatch size of the prefix sum over list lengths.
 pub const DISPATCH_SCAN: u32 = 5;
-/// Slot of the dispatch size that takes candidates to groups.
+/// Index of the dispatch size that takes candidates to groups.
 pub const DISPATCH_GROUPS: u32 = 6;
-/// Slot of the dispatch size of the sort.
+/// Index of the dispatch size of the sort.
 pub const DISPATCH_SORT: u32 = 7;
-/// Slot of the dispatch size of its prefix sums.
+/// Index of the dispatch size of the prefix sums of the sort.
 pub const DISPATCH_SORT_SCAN: u32 = 8;
-/// First slot of the dispatch sizes of the light hierarchy's depths.
+/// Index of the first of the dispatch sizes of the light hierarchy's depths.
 pub const DISPATCH_NODES: u32 = 9;
-/// How many slots there are.
+/// How many sizes of indirect dispatches there are.
 pub const DISPATCH_COUNT: u32 = DISPATCH_NODES + MAX_TREE_DEPTH;
 /// Children of a node of the light hierarchy, a power of two.
 pub const TREE_WIDTH: u32 = 8;
@@ -74,12 +74,12 @@ pub const TREE_WIDTH: u32 = 8;
 pub const MAX_TREE_DEPTH: u32 = 11;
 /// Bits of a key that one pass of the sort orders by.
 pub const SORT_BITS: u32 = 7;
-/// Values of those bits.
+/// How many values the digit of a key has that one pass of the sort orders by.
 pub const SORT_DIGITS: u32 = 1 << SORT_BITS;
 /// Items that one thread of the sort takes.
 pub const SORT_BLOCK: u32 = 128;
 
-/// How many 64-bit counters the atemporal run has: those of [`DeviceCounts`].
+/// How many 64-bit counters the atemporal run has: as many as [`DeviceCounts`] has fields.
 pub const COUNTER_COUNT: usize = DeviceCounts::NAMES.len();
 
 const CONSTANTS: [(&str, u32); 28] = [
@@ -87,10 +87,10 @@ const CONSTANTS: [(&str, u32); 28] = [
     ("SET_MATERIAL", SET_MATERIAL),
     ("SET_DEPTH", SET_DEPTH),
     ("MAX_VIEWS", MAX_VIEWS),
-    ("SCAN_GROUP", SCAN_GROUP),
+    ("SCAN_WORKGROUP", SCAN_WORKGROUP),
     ("SCAN_BLOCK", SCAN_BLOCK),
-    ("ASSIGN_GROUP", ASSIGN_GROUP),
-    ("TILE_ROW", TILE_ROW),
+    ("ASSIGN_WORKGROUP", ASSIGN_WORKGROUP),
+    ("PACKET_ROW", PACKET_ROW),
     ("LIST_ROW", LIST_ROW),
     ("BLOCK_COLUMNS", BLOCK_COLUMNS),
     ("BLOCK_EXTREMES", BLOCK_EXTREMES),
@@ -101,7 +101,7 @@ const CONSTANTS: [(&str, u32); 28] = [
     ("DISPATCH_UNMASKED", DISPATCH_UNMASKED),
     ("DISPATCH_MEET", DISPATCH_MEET),
     ("DISPATCH_MEET_AGAIN", DISPATCH_MEET_AGAIN),
-    ("CULL_GROUP", CULL_GROUP),
+    ("CULL_WORKGROUP", CULL_WORKGROUP),
     ("DISPATCH_SCAN", DISPATCH_SCAN),
     ("DISPATCH_GROUPS", DISPATCH_GROUPS),
     ("DISPATCH_SORT", DISPATCH_SORT),
@@ -123,7 +123,7 @@ const TEXTURE_SLOTS: [(&str, TextureSlot); 5] = [
 ];
 
 /// Every shared struct; one comes after those it contains.
-const STRUCTS: [StructInfo; 14] = [
+const STRUCTS: [StructInfo; 15] = [
     ViewData::INFO,
     GridData::INFO,
     LightNode::INFO,
@@ -138,6 +138,7 @@ const STRUCTS: [StructInfo; 14] = [
     PixelData::INFO,
     ClusterGroup::INFO,
     Candidate::INFO,
+    Push::INFO,
 ];
 
 /// Names of what shader variants choose among; the value is the position.
@@ -179,7 +180,7 @@ pub fn glsl() -> String {
         text.push_str(&structure.glsl());
         text.push('\n');
     }
-    text.push_str("layout(push_constant) uniform PushConstants { uint view; uint step; } push;\n");
+    text.push_str("layout(push_constant, scalar) uniform PushConstants { Push push; };\n");
     text
 }
 

@@ -3,7 +3,7 @@
 use crate::Result;
 use crate::buffers::BufferName;
 use crate::draw_list::{Batch, Batches};
-use crate::draw_slots::DrawSlots;
+use crate::drawables::Drawables;
 use crate::gpu_interface::{InstanceData, MaterialData};
 use crate::layouts::{DescriptorSets, Layouts, MATERIAL_SET, MATERIAL_TEXTURES};
 use crate::placements::{Placement, near_vertices, placements};
@@ -17,24 +17,24 @@ use std::sync::Arc;
 
 /// A scene ready to draw.
 pub struct GpuScene {
-    /// [`crate::scene::Vertex`] of all primitives.
+    /// Vertices of all primitives, each a [`crate::scene::Vertex`].
     pub vertices: Buffer,
-    /// 32-bit indices.
+    /// 32-bit indices of all primitives.
     pub indices: Buffer,
     /// [`crate::gpu_interface::InstanceData`] in drawing order, relative to `origin`.
     pub instances: Buffer,
-    /// Of the frames that can be drawn now, see [`crate::origin`]; metres.
+    /// Origin of the frames that can be drawn now (see [`crate::origin`]), metres.
     pub origin: DVec3,
     /// No instance reaches farther from `origin`, metres.
     pub reach: f64,
     placements: Vec<Placement>,
-    /// What is drawn where the device culls, as [`DrawSlots::slots`] has it.
-    pub draw_slots: Buffer,
+    /// Draw commands of all drawables, as [`Drawables::all`] has them.
+    pub drawables: Buffer,
     /// What can be drawn at once.
     pub batches: Vec<Batch>,
     /// The textures of each material.
     pub material_sets: Vec<vk::DescriptorSet>,
-    /// Which of them each samples.
+    /// Which textures each material samples.
     pub texture_sets: Vec<TextureSet>,
     _materials: Buffer,
     _sets: DescriptorSets,
@@ -43,12 +43,12 @@ pub struct GpuScene {
 }
 
 impl GpuScene {
-    /// Uploads `scene`, its instances in the order of `batches`, with what `slots` draws of them.
+    /// Uploads `scene`: its instances in the order of `batches`, and the draw commands of `drawables`.
     pub fn new(
         context: &Arc<Context>,
         layouts: &Layouts,
         scene: &Scene,
-        (batches, slots): (&Batches, &DrawSlots),
+        (batches, drawables): (&Batches, &Drawables),
     ) -> Result<Self> {
         let (materials, stride) = materials(context, &scene.materials)?;
         let placements = placements(scene, batches);
@@ -85,11 +85,11 @@ impl GpuScene {
             origin: DVec3::ZERO,
             reach: reach(&placements, DVec3::ZERO),
             placements,
-            draw_slots: Buffer::with_data(
+            drawables: Buffer::with_data(
                 context,
-                "draw_slots",
-                BufferName::DrawSlots.info().usage(),
-                &slots.slots,
+                "drawables",
+                BufferName::Drawables.info().usage(),
+                &drawables.all,
             )?,
             batches: batches.batches.clone(),
             material_sets: sets.sets.clone(),
@@ -135,11 +135,11 @@ fn materials(context: &Arc<Context>, materials: &[Material]) -> Result<(Buffer, 
 }
 
 fn material_data(material: &Material) -> MaterialData {
-    let mut uv_slots = 0;
+    let mut uv_sets = 0;
     let mut uv_rows = [[0.0; 3]; 10];
     for (slot, texture) in material.textures.iter().enumerate() {
         let [row0, row1] = texture.map_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], |t| t.uv_transform);
-        uv_slots |= texture.map_or(0, |t| t.uv_slot) << slot;
+        uv_sets |= texture.map_or(0, |t| t.uv_set) << slot;
         (uv_rows[2 * slot], uv_rows[2 * slot + 1]) = (row0, row1);
     }
     MaterialData {
@@ -150,7 +150,7 @@ fn material_data(material: &Material) -> MaterialData {
         normal_scale: normal_scale(material),
         occlusion_strength: material.occlusion_strength,
         alpha_cutoff: material.alpha_cutoff,
-        uv_slots,
+        uv_sets,
         unlit: material.unlit.into(),
         uv_rows,
     }

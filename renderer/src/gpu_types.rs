@@ -10,7 +10,7 @@ const TEXEL_WORDS: usize = 4;
 /// A struct declared with [`crate::gpu_struct`], as data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StructInfo {
-    /// Name on both sides.
+    /// Name of the struct in Rust and in GLSL.
     pub name: &'static str,
     /// The declaration of every member in GLSL, without padding.
     pub members: &'static [&'static str],
@@ -18,20 +18,20 @@ pub struct StructInfo {
     pub fields: &'static [(&'static str, usize)],
     /// Words behind the last field, which fill the last texel.
     pub padding: usize,
-    /// Bytes, and the stride in arrays.
+    /// Size in bytes, which is the stride in arrays too.
     pub size: usize,
 }
 
 impl StructInfo {
-    /// Its declaration in GLSL.
+    /// Declaration of the struct in GLSL.
     pub fn glsl(&self) -> String {
         let members = self.members.iter().map(|member| format!("    {member};\n"));
         let padding = (self.padding > 0).then(|| format!("    uint padding[{}];\n", self.padding));
         format!("struct {} {{\n{}}};\n", self.name, members.chain(padding).collect::<String>())
     }
 
-    /// Whether all its members are floats, so that it is read as texels of floats; else of unsigned integers, whose bits
-    /// no device changes.
+    /// Whether all members are floats, so that the struct is read as texels of floats; else of unsigned integers, whose
+    /// bits no device changes.
     pub const fn is_float(&self) -> bool {
         let mut member = 0;
         while member < self.members.len() {
@@ -150,7 +150,7 @@ macro_rules! gpu_struct {
             /// Words behind the fields.
             const PADDING: usize =
                 $crate::gpu_types::padding_words(0 $(+ size_of::<$type>())+, &[$(stringify!($unit))?]);
-            /// All of it as data.
+            /// What generators need to know of the struct.
             pub const INFO: $crate::gpu_types::StructInfo = $crate::gpu_types::StructInfo {
                 name: stringify!($name),
                 members: &[$($crate::glsl_member!(stringify!($field), $type)),+],

@@ -11,9 +11,9 @@ use std::path::Path;
 
 /// Scene, recording and lights of a replay.
 pub struct Inputs {
-    /// What is drawn.
+    /// The scene that is drawn.
     pub scene: Scene,
-    /// Cameras and rain.
+    /// Cameras and rain of each frame.
     pub recording: Recording,
     /// Hexadecimal SHA-256 of the file of static lights, where they come from one.
     pub lights_sha256: Option<String>,
@@ -30,7 +30,7 @@ impl Inputs {
         Self::load_with(config, recording::load(&config.recording)?, None)
     }
 
-    /// The same, with the recording at hand and maybe the scene.
+    /// Loads as [`Self::load`] does, with the recording at hand and maybe the scene.
     ///
     /// # Errors
     /// As [`Self::load`].
@@ -80,10 +80,10 @@ impl Inputs {
         })
     }
 
-    /// How many lights there are.
+    /// How many lights a source of lights has.
     ///
     /// # Errors
-    /// They were not loaded.
+    /// The lights were not loaded.
     pub fn light_count(&self, lights: &LightsFrom) -> Result<u32> {
         match (lights, &self.static_lights) {
             (LightsFrom::Rain(lighting), _) => Ok(lighting.count),

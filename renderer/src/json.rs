@@ -5,22 +5,22 @@ use serde::de::{DeserializeOwned, DeserializeSeed, Error as _, IgnoredAny, MapAc
 use std::fmt;
 use std::path::Path;
 
-/// One step from a JSON value into one of its parts.
+/// One part of the path from a JSON value into what it holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Step {
+pub(crate) enum PathPart {
     /// A field of an object.
     Key(&'static str),
     /// An element of an array.
     Index(usize),
 }
 
-impl From<&'static str> for Step {
+impl From<&'static str> for PathPart {
     fn from(key: &'static str) -> Self {
         Self::Key(key)
     }
 }
 
-impl From<usize> for Step {
+impl From<usize> for PathPart {
     fn from(index: usize) -> Self {
         Self::Index(index)
     }
@@ -30,7 +30,7 @@ impl From<usize> for Step {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Problem {
     /// From the whole value to the part.
-    path: Vec<Step>,
+    path: Vec<PathPart>,
     message: String,
 }
 
@@ -40,9 +40,9 @@ impl Problem {
         Self { path: Vec::new(), message: message.into() }
     }
 
-    /// The same problem, seen from the value that holds this one at `step`.
-    pub(crate) fn under(mut self, step: impl Into<Step>) -> Self {
-        self.path.insert(0, step.into());
+    /// This problem, seen from the value that holds this one as `part`.
+    pub(crate) fn under(mut self, part: impl Into<PathPart>) -> Self {
+        self.path.insert(0, part.into());
         self
     }
 
@@ -61,11 +61,11 @@ impl Problem {
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (depth, step) in self.path.iter().enumerate() {
-            match step {
-                Step::Key(key) if depth == 0 => write!(f, "{key}")?,
-                Step::Key(key) => write!(f, ".{key}")?,
-                Step::Index(index) => write!(f, "[{index}]")?,
+        for (depth, part) in self.path.iter().enumerate() {
+            match part {
+                PathPart::Key(key) if depth == 0 => write!(f, "{key}")?,
+                PathPart::Key(key) => write!(f, ".{key}")?,
+                PathPart::Index(index) => write!(f, "[{index}]")?,
             }
         }
         if !self.path.is_empty() {
@@ -112,7 +112,7 @@ fn describe(error: &serde_json::Error, field: Option<&str>) -> String {
 }
 
 /// Walks a JSON text along a path and fails where it arrives: the parser adds line and column to the failure.
-struct Locate<'p>(&'p [Step]);
+struct Locate<'p>(&'p [PathPart]);
 
 impl<'de> DeserializeSeed<'de> for Locate<'_> {
     type Value = ();
@@ -135,7 +135,7 @@ impl<'de> Visitor<'de> for Locate<'_> {
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<(), A::Error> {
         while let Some(key) = map.next_key::<String>()? {
             match self.0.first() {
-                Some(Step::Key(wanted)) if key == *wanted => map.next_value_seed(Locate(&self.0[1..]))?,
+                Some(PathPart::Key(wanted)) if key == *wanted => map.next_value_seed(Locate(&self.0[1..]))?,
                 _ => drop(map.next_value::<IgnoredAny>()?),
             }
         }
@@ -144,7 +144,7 @@ impl<'de> Visitor<'de> for Locate<'_> {
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<(), A::Error> {
-        let Some(Step::Index(wanted)) = self.0.first() else {
+        let Some(PathPart::Index(wanted)) = self.0.first() else {
             return Err(A::Error::custom("here"));
         };
         for _ in 0..*wanted {

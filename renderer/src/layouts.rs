@@ -26,14 +26,14 @@ pub const DEPTH_SET: [(vk::DescriptorType, u32); 1] = [(vk::DescriptorType::SAMP
 /// The descriptor set layouts that pipelines share.
 pub struct Layouts {
     context: Arc<Context>,
-    /// [`crate::gpu_interface::SET_MATERIAL`].
+    /// Layout of the descriptor set [`crate::gpu_interface::SET_MATERIAL`].
     pub material: vk::DescriptorSetLayout,
-    /// [`crate::gpu_interface::SET_DEPTH`].
+    /// Layout of the descriptor set [`crate::gpu_interface::SET_DEPTH`].
     pub depth: vk::DescriptorSetLayout,
 }
 
 impl Layouts {
-    /// Makes the layouts.
+    /// Makes the layouts that pipelines share.
     pub fn new(context: &Arc<Context>) -> Result<Self> {
         let material = set_layout(context, &dense(&MATERIAL_SET), "material textures")?;
         let depth = set_layout(context, &dense(&DEPTH_SET), "depth image")?;
@@ -84,7 +84,7 @@ fn failed(what: &str, name: &str, result: vk::Result) -> Error {
 pub struct DescriptorSets {
     context: Arc<Context>,
     pool: vk::DescriptorPool,
-    /// As many as asked for.
+    /// Descriptor sets, as many as asked for.
     pub sets: Vec<vk::DescriptorSet>,
 }
 

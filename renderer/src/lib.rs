@@ -19,7 +19,7 @@ pub mod config;
 pub mod cpu;
 pub mod culling;
 pub mod draw_list;
-pub mod draw_slots;
+pub mod drawables;
 pub mod engine;
 pub mod error;
 pub mod export;

@@ -1,31 +1,31 @@
 //! "Did you mean": the nearest valid name.
 
-/// The candidate most like `name`, by edits (Damerau-Levenshtein), or `None` where nothing comes near.
+/// The valid name most like `name`, by edits (Damerau-Levenshtein), or `None` where nothing comes near.
 /// Hyphen and underscore count as the same letter, and so do upper and lower case.
-pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(name: &str, valid: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let plain = |text: &str| text.to_lowercase().replace('-', "_");
     let name = plain(name);
-    candidates
+    valid
         .into_iter()
-        .map(|candidate| (strsim::damerau_levenshtein(&name, &plain(candidate)), candidate))
+        .map(|other| (strsim::damerau_levenshtein(&name, &plain(other)), other))
         .min_by_key(|(edits, _)| *edits)
-        .filter(|(edits, candidate)| *edits * 2 <= candidate.chars().count().max(name.chars().count()))
-        .map(|(_, candidate)| candidate)
+        .filter(|(edits, other)| *edits * 2 <= other.chars().count().max(name.chars().count()))
+        .map(|(_, other)| other)
 }
 
-/// `; did you mean ...?` where a candidate is near, else the list of all.
-pub(crate) fn hint(name: &str, candidates: &[&str]) -> String {
-    match nearest(name, candidates.iter().copied()) {
-        Some(candidate) => format!("; did you mean `{candidate}`?"),
-        None if candidates.is_empty() => String::new(),
-        None => format!("; valid are {}", candidates.join(", ")),
+/// `; did you mean ...?` where a valid name is near, else the list of all.
+pub(crate) fn hint(name: &str, valid: &[&str]) -> String {
+    match nearest(name, valid.iter().copied()) {
+        Some(other) => format!("; did you mean `{other}`?"),
+        None if valid.is_empty() => String::new(),
+        None => format!("; valid are {}", valid.join(", ")),
     }
 }
 
-/// That of `all` which is called `text`; `what` says what it should be.
+/// The item of `all` that is called `text`; `what` says what it should be.
 ///
 /// # Errors
-/// There is none: names the nearest.
+/// No item has this name; names the nearest.
 pub(crate) fn named<T: Copy + ToString>(text: &str, all: &[T], what: &str) -> Result<T, String> {
     all.iter().find(|item| item.to_string() == text).copied().ok_or_else(|| {
         let names: Vec<String> = all.iter().map(ToString::to_string).collect();

@@ -10,7 +10,7 @@ use glam::DVec3;
 /// While the head stays within this part of the views' far distance from the world's origin, that is the frame's as well.
 pub const AT_HOME: f64 = 0.75;
 
-/// Of the steps in which the origin follows the head elsewhere, this many at least go into the far distance.
+/// How many of the steps in which the origin follows the head elsewhere go into the far distance, at least.
 const STEPS: f64 = 4.0;
 
 /// The origin of a frame with these views, metres: the world's where the head is near it, else a point near the head, on a

@@ -28,9 +28,9 @@ use std::sync::Arc;
 
 /// The three dispatches of a prefix sum, and the one that does without them.
 pub struct ScanPipelines {
-    /// Items to prefixes, where there are few.
+    /// Takes few items to prefixes in one workgroup.
     pub single: Arc<Pipeline>,
-    /// Items to block sums.
+    /// Takes items to sums of blocks.
     pub reduce: Arc<Pipeline>,
     /// Block sums to block offsets.
     pub block_offsets: Arc<Pipeline>,
@@ -40,9 +40,9 @@ pub struct ScanPipelines {
 
 /// Visiting the cluster of every fragment.
 pub struct MarkPipelines {
-    /// From the depth buffer.
+    /// Marks clusters from the depth buffer.
     pub depth: Arc<Pipeline>,
-    /// From geometry, by [`SurfaceKind`].
+    /// Mark clusters from geometry, by [`SurfaceKind`].
     pub geometry: [Arc<Pipeline>; 3],
 }
 
@@ -63,7 +63,7 @@ pub struct Pipelines {
 }
 
 impl Pipelines {
-    /// All of them, each once.
+    /// All pipelines, each once.
     pub fn all(&self) -> &[Arc<Pipeline>] {
         &self.all
     }
@@ -92,7 +92,7 @@ pub struct PipelineStore {
     views: ViewSet,
     texture_sets: [BTreeSet<TextureSet>; 3],
     made: BTreeMap<String, Arc<Pipeline>>,
-    /// Those asked for since [`Self::take_asked`], by their numbers.
+    /// Pipelines asked for since [`Self::take_asked`], by their numbers.
     asked: BTreeMap<usize, Arc<Pipeline>>,
 }
 

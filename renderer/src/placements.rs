@@ -22,7 +22,7 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// As shaders read it in a frame with this origin (metres).
+    /// The instance as shaders read it in a frame with this origin (metres).
     pub fn data(&self, origin: DVec3) -> InstanceData {
         let mut matrix = self.world_from_object;
         matrix.w_axis -= origin.extend(0.0);

@@ -14,11 +14,11 @@ pub const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
 /// What a colour target is.
 #[derive(Debug, Clone, Copy)]
 pub struct TargetInfo {
-    /// What its images are called.
+    /// Name of the target's images.
     pub name: &'static str,
-    /// Format of its texels.
+    /// Format of the target's texels.
     pub format: vk::Format,
-    /// What its images are used for, besides being drawn into and resolved.
+    /// What the target's images are used for, more than being drawn into and resolved.
     pub usage: vk::ImageUsageFlags,
     /// Whether MSAA's samples are averaged into an image with one sample a pixel.
     pub resolved: bool,
@@ -33,11 +33,11 @@ macro_rules! targets {
         pub enum TargetName { $($(#[$doc])* $name),+ }
 
         impl TargetName {
-            /// All of them.
+            /// All colour targets.
             pub const ALL: [Self; TARGET_COUNT] = [$(Self::$name),+];
         }
 
-        /// How many there are.
+        /// How many colour targets there are.
         pub const TARGET_COUNT: usize = [$(stringify!($name)),+].len();
 
         static TARGETS: [TargetInfo; TARGET_COUNT] = [$($info),+];
@@ -55,7 +55,7 @@ targets! {
 }
 
 impl TargetName {
-    /// What it is.
+    /// All that is declared of the target.
     pub fn info(self) -> &'static TargetInfo {
         &TARGETS[self as usize]
     }

@@ -9,12 +9,12 @@ use std::collections::BTreeSet;
 pub struct TextureSet(u32);
 
 impl TextureSet {
-    /// No textures.
+    /// The set of no textures.
     pub const NONE: Self = Self(0);
-    /// The colour alone.
+    /// The set of the base colour alone.
     pub const BASE_COLOR: Self = Self(1 << TextureSlot::BaseColor as u32);
 
-    /// Those that change how a material looks.
+    /// Textures of `material` that change how it looks.
     pub fn of(material: &Material) -> Self {
         let slots = material.textures.iter().enumerate().filter(|(_, texture)| texture.is_some());
         let all = slots.fold(0, |bits, (slot, _)| bits | 1 << slot);
@@ -27,7 +27,7 @@ impl TextureSet {
         self.0
     }
 
-    /// Whether one of them is there.
+    /// Whether a texture is in the set.
     pub fn has(self, slot: TextureSlot) -> bool {
         self.0 >> slot as u32 & 1 != 0
     }
@@ -52,7 +52,7 @@ mod tests {
     #[test]
     fn textures_that_change_nothing_are_not_sampled() {
         let sampler = Sampler { wrap: [Wrap::Repeat; 2], nearest: false };
-        let texture = TextureRef { image: 0, sampler, uv_slot: 0, uv_transform: TextureRef::IDENTITY };
+        let texture = TextureRef { image: 0, sampler, uv_set: 0, uv_transform: TextureRef::IDENTITY };
         let mut material = Material::plain("plain");
         assert_eq!(TextureSet::of(&material), TextureSet::NONE);
         material.textures[TextureSlot::BaseColor as usize] = Some(texture);

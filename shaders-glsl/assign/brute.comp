@@ -1,11 +1,11 @@
-// Brute force (Gelderen section 5.3): every visible cluster against every light, in tiles of both.
+// Brute force (Gelderen section 5.3): every visible cluster against every light, in packets of lights and groups of clusters.
 // WRITE_LISTS 0 counts (pass count_lights), 1 writes (pass assign_lights) where light bits did not fit.
 #version 460
 #include "lib/counters.glsl"
-#include "lib/light_tile.glsl"
+#include "lib/light_packet.glsl"
 #include "lib/list_builder.glsl"
 
-layout(local_size_x = ASSIGN_GROUP) in;
+layout(local_size_x = ASSIGN_WORKGROUP) in;
 
 void add_lights(uint visible, uint first, uint bits)
 {
@@ -15,10 +15,10 @@ void add_lights(uint visible, uint first, uint bits)
 
 void main()
 {
-    uint tile = gl_WorkGroupID.y;
-    uint first = tile * ASSIGN_GROUP;
-    uint there = min(grid.light_count - first, ASSIGN_GROUP);
-    fill_tile(read_volume(first + min(gl_LocalInvocationID.x, there - 1u)));
+    uint packet = gl_WorkGroupID.y;
+    uint first = packet * ASSIGN_WORKGROUP;
+    uint there = min(grid.light_count - first, ASSIGN_WORKGROUP);
+    fill_packet(read_volume(first + min(gl_LocalInvocationID.x, there - 1u)));
     uint visible = gl_GlobalInvocationID.x;
     uvec2 met = lights_met(cell_of_visible(visible), there);
     if (visible >= state.visible)
@@ -26,8 +26,8 @@ void main()
 #if !WRITE_LISTS
     count(COUNTER_INTERSECTION_TESTS, there);
     if (state.masked != 0u) {
-        // A tile is two words that no other thread writes.
-        uint word = visible * state.mask_words + 2u * tile;
+        // A packet is two words that no other thread writes.
+        uint word = visible * state.mask_words + 2u * packet;
         light_masks[word] = met.x;
         light_masks[word + 1u] = met.y;
         if (any(notEqual(met, uvec2(0u))))

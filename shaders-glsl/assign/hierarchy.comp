@@ -11,7 +11,7 @@
 
 #extension GL_EXT_control_flow_attributes : require
 
-layout(local_size_x = ASSIGN_GROUP) in;
+layout(local_size_x = ASSIGN_WORKGROUP) in;
 
 const uint TREE_CUT = 2u;
 

@@ -3,7 +3,7 @@
 #include "lib/list_builder.glsl"
 #extension GL_EXT_control_flow_attributes : require
 
-layout(local_size_x = ASSIGN_GROUP) in;
+layout(local_size_x = ASSIGN_WORKGROUP) in;
 
 // Words, and lights, that are read in one turn: lavapipe ends a shader's loops after 65 535 turns of all of them.
 const uint WORDS_AT_ONCE = 4u;
@@ -29,16 +29,16 @@ void main()
     if (visible >= state.visible)
         return;
 #if WRITE_LISTS
-    uint slot = list_offsets[visible];
+    uint entry = list_offsets[visible];
     uint end = min(list_offsets[visible + 1u], grid.index_capacity);
-    for (uint word = 0u; word < state.mask_words && slot < end; word += WORDS_AT_ONCE) {
+    for (uint word = 0u; word < state.mask_words && entry < end; word += WORDS_AT_ONCE) {
         uvec4 words = uvec4(word_of(visible, word), word_of(visible, word + 1u), word_of(visible, word + 2u), word_of(visible, word + 3u));
         while (any(notEqual(words, uvec4(0u)))) {
             [[unroll]] for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i) {
                 if (any(notEqual(words, uvec4(0u)))) {
                     uint light = light_of_number(word * 32u + take_lowest(words));
-                    if (slot < end)
-                        light_indices[slot++] = light;
+                    if (entry < end)
+                        light_indices[entry++] = light;
                 }
             }
         }

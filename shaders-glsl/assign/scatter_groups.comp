@@ -6,14 +6,14 @@
 #include "generated/gpu_interface.glsl"
 #extension GL_EXT_control_flow_attributes : require
 
-layout(local_size_x = ASSIGN_GROUP) in;
+layout(local_size_x = ASSIGN_WORKGROUP) in;
 
 shared uvec3 cells_of_group[GROUP_CHUNK];
 
 void main()
 {
     uint first = gl_WorkGroupID.y * GROUP_CHUNK;
-    uint there = min((state.visible + ASSIGN_GROUP - 1u) / ASSIGN_GROUP - first, GROUP_CHUNK);
+    uint there = min((state.visible + ASSIGN_WORKGROUP - 1u) / ASSIGN_WORKGROUP - first, GROUP_CHUNK);
     uint thread = gl_LocalInvocationID.x;
     if (thread < there)
         cells_of_group[thread] = groups[first + thread].cells;
@@ -28,8 +28,8 @@ void main()
     for (met &= (1u << there) - 1u; met != 0u; met &= met - 1u) {
         uint group = first + uint(findLSB(met));
 #if FILL_GROUPS
-        uint slot = groups[group].first_tile * ASSIGN_GROUP + atomicAdd(groups[group].listed, 1u);
-        group_lights[slot] = number;
+        uint entry = groups[group].first_packet * ASSIGN_WORKGROUP + atomicAdd(groups[group].listed, 1u);
+        group_lights[entry] = number;
 #else
         atomicAdd(groups[group].lights, 1u);
 #endif

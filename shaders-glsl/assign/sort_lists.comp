@@ -5,7 +5,7 @@
 #include "lib/list_builder.glsl"
 #extension GL_EXT_control_flow_attributes : require
 
-layout(local_size_x = ASSIGN_GROUP) in;
+layout(local_size_x = ASSIGN_WORKGROUP) in;
 
 // Exchanges that a thread makes in one turn: lavapipe ends a shader's loops after 65 535 turns of all of them.
 const uint AT_ONCE = 16u;
@@ -24,9 +24,9 @@ void exchange(uint first, uint size, uint low, uint high)
 void exchange_all(uint first, uint size, uint half_block, bool inwards)
 {
     uint pairs = (size + 2u * half_block - 1u) / (2u * half_block) * half_block;
-    for (uint turn = gl_LocalInvocationID.x; turn < pairs; turn += ASSIGN_GROUP * AT_ONCE) {
+    for (uint turn = gl_LocalInvocationID.x; turn < pairs; turn += ASSIGN_WORKGROUP * AT_ONCE) {
         [[unroll]] for (uint i = 0u; i < AT_ONCE; ++i) {
-            uint pair = turn + i * ASSIGN_GROUP;
+            uint pair = turn + i * ASSIGN_WORKGROUP;
             uint block = pair / half_block * 2u * half_block, at = pair % half_block;
             if (pair < pairs)
                 exchange(first, size, block + at, block + (inwards ? 2u * half_block - 1u - at : half_block + at));
@@ -49,6 +49,6 @@ void main()
         for (uint half_block = half_sorted / 2u; half_block > 0u; half_block /= 2u)
             exchange_all(first, size, half_block, false);
     }
-    for (uint i = gl_LocalInvocationID.x; i < size; i += ASSIGN_GROUP)
+    for (uint i = gl_LocalInvocationID.x; i < size; i += ASSIGN_WORKGROUP)
         light_indices[first + i] = light_of_number(light_indices[first + i]);
 }

@@ -2,7 +2,7 @@
 #version 460
 #include "lib/light_tree.glsl"
 
-layout(local_size_x = ASSIGN_GROUP) in;
+layout(local_size_x = ASSIGN_WORKGROUP) in;
 
 // Rounding of the sums in node tests and of the boxes themselves, relative to the coordinates.
 const float NODE_SLACK = 4e-6;

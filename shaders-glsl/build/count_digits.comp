@@ -4,7 +4,7 @@
 #version 460
 #include "lib/sort.glsl"
 
-layout(local_size_x = ASSIGN_GROUP) in;
+layout(local_size_x = ASSIGN_WORKGROUP) in;
 
 // Spreads ten bits, two zeros after each.
 uint spread(uint x)

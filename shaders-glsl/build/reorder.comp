@@ -2,7 +2,7 @@
 #version 460
 #include "lib/sort.glsl"
 
-layout(local_size_x = ASSIGN_GROUP) in;
+layout(local_size_x = ASSIGN_WORKGROUP) in;
 
 void main()
 {

@@ -7,7 +7,7 @@
 #include "lib/intersect.glsl"
 #include "lib/light_volume.glsl"
 
-layout(local_size_x = ASSIGN_GROUP) in;
+layout(local_size_x = ASSIGN_WORKGROUP) in;
 
 bool may_meet_visible(LightVolume volume)
 {

@@ -7,7 +7,7 @@
 #include "lib/halves.glsl"
 #include "lib/light_volume.glsl"
 
-layout(local_size_x = ASSIGN_GROUP) in;
+layout(local_size_x = ASSIGN_WORKGROUP) in;
 
 void main()
 {

@@ -5,7 +5,7 @@
 #include "lib/cluster_space.glsl"
 #include "lib/halves.glsl"
 
-layout(local_size_x = ASSIGN_GROUP) in;
+layout(local_size_x = ASSIGN_WORKGROUP) in;
 
 shared uint lowest[3], highest[3];
 
@@ -27,7 +27,7 @@ void main()
         }
     }
     barrier();
-    if (thread > 0u || gl_WorkGroupID.x * ASSIGN_GROUP >= state.visible)
+    if (thread > 0u || gl_WorkGroupID.x * ASSIGN_WORKGROUP >= state.visible)
         return;
     uvec3 low = uvec3(lowest[0], lowest[1], lowest[2]), high = uvec3(highest[0], highest[1], highest[2]);
     include_visible(low, high);

@@ -1,12 +1,12 @@
 // Which instances a view may see, as the indirect commands that draw them.
 //
-// A thread takes a whole slot, so that its instances keep their order without a prefix sum. push.view is the view; where
-// push.step is over 1, it is the first of so many views that a pass draws at once. Their commands come behind those of
-// single views, hold no transparent slots, and draw what any view sees once for each view (see geometry/surface.vert).
+// A thread takes a whole drawable, so that its instances keep their order without a prefix sum. push.view is the view; where
+// push.view_count is over 1, it is the first of so many views that a pass draws at once. Their commands come behind those of
+// single views, hold no transparent drawables, and draw what any view sees once for each view (see geometry/surface.vert).
 #version 460
 #include "generated/gpu_interface.glsl"
 
-layout(local_size_x = CULL_GROUP) in;
+layout(local_size_x = CULL_WORKGROUP) in;
 
 // False only where the box lies wholly outside a plane.
 bool may_see(uint view, uint instance)
@@ -33,21 +33,21 @@ bool any_may_see(uint first_view, uint view_count, uint instance)
 void main()
 {
     uint surfaces = draw_counts.surfaces, transparents = draw_counts.transparents;
-    bool at_once = push.step > 1u;
+    bool at_once = push.view_count > 1u;
     uint command = gl_GlobalInvocationID.x;
     if (command >= surfaces + (at_once ? 0u : transparents))
         return;
-    uint slot = command < surfaces ? command : draw_order[push.view * transparents + command - surfaces];
-    uint list = at_once ? push.step : push.view;
-    DrawCommand draw = draw_slots[slot];
+    uint drawable = command < surfaces ? command : draw_order[push.view * transparents + command - surfaces];
+    uint list = at_once ? push.view_count : push.view;
+    DrawCommand draw = drawables[drawable];
     uint first_drawn = list * draw_counts.instances + draw.first_instance;
     uint drawn = 0u;
     for (uint i = 0u; i < draw.instance_count; ++i) {
         uint instance = draw.first_instance + i;
-        if (any_may_see(push.view, push.step, instance))
+        if (any_may_see(push.view, push.view_count, instance))
             drawn_instances[first_drawn + drawn++] = instance;
     }
-    draw.instance_count = drawn * push.step;
-    draw.first_instance = first_drawn * push.step;
+    draw.instance_count = drawn * push.view_count;
+    draw.first_instance = first_drawn * push.view_count;
     draw_commands[list * (surfaces + transparents) + command] = draw;
 }

@@ -9,7 +9,7 @@ uint pack_range(uint low, uint high)
     return min(low, MOST_IN_HALF) | min(high, MOST_IN_HALF) << 16;
 }
 
-// The same of all three axes.
+// Packs a range of cells, a word for each axis.
 uvec3 pack_cells(uvec3 low, uvec3 high)
 {
     return uvec3(pack_range(low.x, high.x), pack_range(low.y, high.y), pack_range(low.z, high.z));

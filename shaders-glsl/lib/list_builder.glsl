@@ -22,9 +22,9 @@ uint light_of_number(uint number)
 // Puts a light into its list; the lengths run down to zero as lists fill up.
 void add_light(uint visible, uint number)
 {
-    uint slot = list_offsets[visible] + atomicAdd(list_lengths[visible], 0xFFFFFFFFu) - 1u;
-    if (slot < grid.index_capacity)
-        light_indices[slot] = number;
+    uint entry = list_offsets[visible] + atomicAdd(list_lengths[visible], 0xFFFFFFFFu) - 1u;
+    if (entry < grid.index_capacity)
+        light_indices[entry] = number;
 }
 
 #else

@@ -26,7 +26,7 @@ TextureCoordinates texture_coordinates(vec4 uv)
 // One of the five textures: its uv set through its affine transform.
 vec4 sample_texture(sampler2D image, uint slot, TextureCoordinates at)
 {
-    bool second = (material.uv_slots >> slot & 1u) != 0u;
+    bool second = (material.uv_sets >> slot & 1u) != 0u;
     vec3 row0 = material.uv_rows[2u * slot];
     vec3 row1 = material.uv_rows[2u * slot + 1u];
     mat2 linear = transpose(mat2(row0.xy, row1.xy));

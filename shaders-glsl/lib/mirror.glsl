@@ -18,7 +18,7 @@ void clip_behind_mirror(uint view, vec3 world)
 // Of views that are drawn at once, leaves out all of those whose faces do not turn the way that this draw takes for front.
 void clip_other_handedness(uint view)
 {
-    if (views[view].mirrored != push.step)
+    if (views[view].mirrored != push.mirrored)
         gl_ClipDistance[0] = -1.0;
 }
 

@@ -25,13 +25,13 @@ void publish_lists(uint lights, uint visible)
 {
     uint words = (lights + 31u) / 32u;
 #if ASSIGN == ASSIGN_BRUTE
-    words += words & 1u; // whole tiles
+    words += words & 1u; // whole packets
 #endif
     bool masked = words == 0u || visible <= grid.mask_capacity / words;
     new_state.candidates = lights;
     new_state.mask_words = words;
     new_state.masked = uint(masked);
-    DispatchSize lists = groups_for(visible, ASSIGN_GROUP);
+    DispatchSize lists = groups_for(visible, ASSIGN_WORKGROUP);
     dispatches[DISPATCH_LISTS] = lists;
     DispatchSize masked_lists = lists;
     DispatchSize unmasked_lists = DispatchSize(min(visible, LIST_ROW), (visible + LIST_ROW - 1u) / LIST_ROW, 1u);
@@ -42,7 +42,7 @@ void publish_lists(uint lights, uint visible)
     dispatches[DISPATCH_MASKED] = masked_lists;
     dispatches[DISPATCH_UNMASKED] = unmasked_lists;
 #if ASSIGN == ASSIGN_BRUTE
-    publish_meeting(DispatchSize(lists.x, (lights + ASSIGN_GROUP - 1u) / ASSIGN_GROUP, 1u), masked);
+    publish_meeting(DispatchSize(lists.x, (lights + ASSIGN_WORKGROUP - 1u) / ASSIGN_WORKGROUP, 1u), masked);
 #elif ASSIGN == ASSIGN_HIERARCHY
     publish_meeting(DispatchSize(lists.x, TREE_SPLIT, 1u), masked);
 #endif
@@ -54,7 +54,7 @@ void publish_visible(uint total)
     new_state.visible_total = total;
     uint visible = min(total, grid.visible_capacity);
     new_state.visible = visible;
-    dispatches[DISPATCH_LISTS] = groups_for(visible, ASSIGN_GROUP);
+    dispatches[DISPATCH_LISTS] = groups_for(visible, ASSIGN_WORKGROUP);
     dispatches[DISPATCH_SCAN] = groups_for(visible, SCAN_BLOCK);
 #if ASSIGN == ASSIGN_BRUTE
     publish_lists(grid.light_count, visible);

@@ -3,13 +3,13 @@
 //
 //   items ──reduce──> block_sums ──block_offsets──> block_sums (exclusive), total ──apply──> exclusive prefix per item
 //
-// A block is SCAN_BLOCK items; a workgroup of SCAN_GROUP threads takes one block, each thread consecutive items. What the
+// A block is SCAN_BLOCK items; a workgroup of SCAN_WORKGROUP threads takes one block, each thread consecutive items. What the
 // items are, and what becomes of prefixes and total, is in lib/scan_items.glsl.
 #pragma once
 
 #include "lib/scan_items.glsl"
 
-const uint SCAN_PER_THREAD = SCAN_BLOCK / SCAN_GROUP;
+const uint SCAN_PER_THREAD = SCAN_BLOCK / SCAN_WORKGROUP;
 
 uint scan_blocks()
 {
@@ -23,7 +23,7 @@ uint saturating_sum(uint a, uint b)
     return a + b < a ? 0xFFFFFFFFu : a + b;
 }
 
-shared uint scan_partial[SCAN_GROUP];
+shared uint scan_partial[SCAN_WORKGROUP];
 
 // Exclusive prefix sum over the workgroup, with the total of all threads.
 uint group_exclusive_sum(uint value, out uint total)
@@ -31,13 +31,13 @@ uint group_exclusive_sum(uint value, out uint total)
     uint thread = gl_LocalInvocationID.x;
     scan_partial[thread] = value;
     barrier();
-    for (uint reach = 1u; reach < SCAN_GROUP; reach <<= 1) {
+    for (uint reach = 1u; reach < SCAN_WORKGROUP; reach <<= 1) {
         uint before = thread >= reach ? scan_partial[thread - reach] : 0u;
         barrier();
         scan_partial[thread] = saturating_sum(scan_partial[thread], before);
         barrier();
     }
-    total = scan_partial[SCAN_GROUP - 1u];
+    total = scan_partial[SCAN_WORKGROUP - 1u];
     uint exclusive = thread > 0u ? scan_partial[thread - 1u] : 0u;
     barrier();
     return exclusive;

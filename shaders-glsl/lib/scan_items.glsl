@@ -32,15 +32,15 @@ void publish(uint total)
     publish_lists(total, state.visible);
 #if ASSIGN == ASSIGN_HIERARCHY
     uint blocks = (total + SORT_BLOCK - 1u) / SORT_BLOCK;
-    dispatches[DISPATCH_SORT] = groups_for(blocks, ASSIGN_GROUP);
+    dispatches[DISPATCH_SORT] = groups_for(blocks, ASSIGN_WORKGROUP);
     dispatches[DISPATCH_SORT_SCAN] = groups_for(blocks * SORT_DIGITS, SCAN_BLOCK);
     uint nodes = total;
     for (uint depth = grid.tree_depth - 1u; depth > 0u; --depth) {
         nodes = (nodes + TREE_WIDTH - 1u) / TREE_WIDTH;
-        dispatches[DISPATCH_NODES + depth - 1u] = groups_for(nodes, ASSIGN_GROUP);
+        dispatches[DISPATCH_NODES + depth - 1u] = groups_for(nodes, ASSIGN_WORKGROUP);
     }
 #else
-    DispatchSize to_groups = groups_for(total, ASSIGN_GROUP);
+    DispatchSize to_groups = groups_for(total, ASSIGN_WORKGROUP);
     to_groups.y = (dispatches[DISPATCH_LISTS].x + GROUP_CHUNK - 1u) / GROUP_CHUNK;
     dispatches[DISPATCH_GROUPS] = to_groups;
 #endif
@@ -57,26 +57,26 @@ void publish(uint total) {}
 
 #elif SCAN_ITEMS == SCAN_GROUPS
 
-uint scan_length() { return (state.visible + ASSIGN_GROUP - 1u) / ASSIGN_GROUP; }
-uint scan_item(uint group) { return (groups[group].lights + ASSIGN_GROUP - 1u) / ASSIGN_GROUP; }
+uint scan_length() { return (state.visible + ASSIGN_WORKGROUP - 1u) / ASSIGN_WORKGROUP; }
+uint scan_item(uint group) { return (groups[group].lights + ASSIGN_WORKGROUP - 1u) / ASSIGN_WORKGROUP; }
 
-// Gives a group its tiles.
+// Gives a group its packets.
 void emit(uint group, uint first)
 {
-    groups[group].first_tile = first;
-    uint end = min(first + scan_item(group), grid.group_capacity / ASSIGN_GROUP);
-    for (uint tile = first; tile < end; ++tile)
-        tile_groups[tile] = group;
+    groups[group].first_packet = first;
+    uint end = min(first + scan_item(group), grid.group_capacity / ASSIGN_WORKGROUP);
+    for (uint packet = first; packet < end; ++packet)
+        packet_groups[packet] = group;
 }
 
 void publish(uint total)
 {
-    bool listed = total <= grid.group_capacity / ASSIGN_GROUP;
+    bool listed = total <= grid.group_capacity / ASSIGN_WORKGROUP;
     if (!listed)
-        total = scan_length() * ((state.candidates + ASSIGN_GROUP - 1u) / ASSIGN_GROUP);
-    new_state.tiles = total;
+        total = scan_length() * ((state.candidates + ASSIGN_WORKGROUP - 1u) / ASSIGN_WORKGROUP);
+    new_state.packets = total;
     new_state.listed = uint(listed);
-    publish_meeting(DispatchSize(min(total, TILE_ROW), (total + TILE_ROW - 1u) / TILE_ROW, 1u), state.masked != 0u);
+    publish_meeting(DispatchSize(min(total, PACKET_ROW), (total + PACKET_ROW - 1u) / PACKET_ROW, 1u), state.masked != 0u);
     if (!listed)
         dispatches[DISPATCH_GROUPS] = NO_DISPATCH;
 }

@@ -2,12 +2,12 @@
 #version 460
 #include "lib/scan.glsl"
 
-layout(local_size_x = SCAN_GROUP) in;
+layout(local_size_x = SCAN_WORKGROUP) in;
 
 void main()
 {
     uint carried = 0u;
-    for (uint first = 0u; first < scan_blocks(); first += SCAN_GROUP) {
+    for (uint first = 0u; first < scan_blocks(); first += SCAN_WORKGROUP) {
         uint block = first + gl_LocalInvocationID.x;
         uint total;
         uint before = group_exclusive_sum(block < scan_blocks() ? block_sums[block] : 0u, total);

@@ -2,7 +2,7 @@
 #version 460
 #include "lib/scan.glsl"
 
-layout(local_size_x = SCAN_GROUP) in;
+layout(local_size_x = SCAN_WORKGROUP) in;
 
 void main()
 {

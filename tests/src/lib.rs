@@ -1,5 +1,6 @@
 //! What the whole-program tests share: running the binary, running the library, reference data.
 
+pub mod program;
 pub mod scenes;
 
 use flate2::read::GzDecoder;
@@ -92,13 +93,13 @@ fn copy_tree(from: &Path, to: &Path) {
 
 /// One run with all it measured.
 pub struct Run {
-    /// What was run.
+    /// What was planned of the run.
     pub planned: PlannedRun,
-    /// Counters by frame.
+    /// Counters of each frame.
     pub counts: Vec<FrameCounts>,
     /// Times by frame and run.
     pub times: Vec<FrameTimes>,
-    /// Images by frame.
+    /// Pictures of each frame, one a view.
     pub images: Vec<(u32, Vec<ViewPixels>)>,
     /// Clusters from above, by frame.
     pub birdseyes: Vec<(u32, RgbImage)>,
@@ -159,7 +160,7 @@ pub fn run(config: Config) -> Vec<Run> {
     run_inputs(config, &inputs)
 }
 
-/// The same with inputs at hand.
+/// Replays as [`run`] does, with inputs at hand.
 ///
 /// # Panics
 /// Where the replay fails.

@@ -1,14 +1,8 @@
 //! Benchmarks as their users meet them: tables, figures, what measuring costs.
 
 use manylight_tests::manylight;
+use manylight_tests::program::printed;
 use std::fs;
-use std::process::Command;
-
-fn succeed(command: &mut Command) -> String {
-    let output = command.output().expect("the program starts");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8_lossy(&output.stdout).into_owned()
-}
 
 #[test]
 fn assignment_is_drawn_over_lights_and_over_clusters() {
@@ -16,7 +10,7 @@ fn assignment_is_drawn_over_lights_and_over_clusters() {
     let mut command = manylight();
     command.args(["bench", "assign", "--quiet", "--resolution", "64x48", "--frame", "300", "--repeats", "1"]);
     command.args(["--lights", "50,100", "--method", "indi-persp-16", "--method", "indi-persp-32"]);
-    succeed(command.arg("--out").arg(out.path().join("assign.csv")));
+    printed(command.arg("--out").arg(out.path().join("assign.csv")));
     let read = |name: &str| fs::read_to_string(out.path().join(name)).unwrap();
     let ways = 3;
     assert_eq!(read("assign.csv").lines().count(), 1 + 2 * 2 * ways);
@@ -41,7 +35,7 @@ fn measuring_costs_a_ratio_of_each_run() {
         "2",
     ]);
     command.args(["--lights", "50", "--method", "indi-persp-64", "--method", "all-lights", "--validate"]);
-    let rows: serde_json::Value = serde_json::from_str(&succeed(&mut command)).unwrap();
+    let rows: serde_json::Value = serde_json::from_str(&printed(&mut command)).unwrap();
     let rows = rows.as_array().unwrap();
     assert_eq!(
         rows.iter().map(|row| row["run"].as_str().unwrap()).collect::<Vec<_>>(),

@@ -1,54 +1,11 @@
-//! The program as its users meet it: files in, files out, exit codes, one clear line for what is wrong.
+//! A replay as its users meet it: files in, files out, exit codes, one clear line for what is wrong.
 
+use manylight_tests::program::{read, refused, small, small_unlit, stderr, succeed};
 use manylight_tests::{copy_shaders, manylight};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
-
-/// A replay small enough for a test, under rain.
-fn small(out: &Path) -> Command {
-    let mut command = small_unlit(out);
-    command.args(["--lights", "200"]);
-    command
-}
-
-/// The same before it is said where light comes from.
-fn small_unlit(out: &Path) -> Command {
-    let mut command = manylight();
-    command.args(["replay", "--quiet", "--resolution", "64x40", "--frames", "300..381/80", "--runs", "1"]);
-    command.args(["--method", "indi-persp-64", "--method", "encl-ortho-4"]);
-    command.arg("--out").arg(out);
-    command
-}
-
-fn output(command: &mut Command) -> Output {
-    command.output().expect("the program starts")
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-fn succeed(command: &mut Command) -> Output {
-    let output = output(command);
-    assert!(output.status.success(), "{}", stderr(&output));
-    output
-}
-
-/// The one line on standard error, after exit code 2.
-fn refused(command: &mut Command) -> String {
-    let output = output(command);
-    let message = stderr(&output);
-    assert_eq!(output.status.code(), Some(2), "{message}");
-    assert_eq!(message.lines().count(), 1, "{message}");
-    assert!(message.starts_with("error: "), "{message}");
-    message
-}
-
-fn read(path: impl AsRef<Path>) -> String {
-    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.as_ref().display()))
-}
+use std::process::Command;
 
 #[test]
 fn a_replay_writes_every_file_and_the_table() {
@@ -299,88 +256,6 @@ fn an_interruption_keeps_complete_runs_and_says_so() {
 }
 
 #[test]
-fn devices_and_scenes_are_described() {
-    let devices = succeed(manylight().args(["devices", "--json"]));
-    let devices: serde_json::Value = serde_json::from_slice(&devices.stdout).unwrap();
-    assert!(!devices.as_array().unwrap().is_empty(), "{devices}");
-    let scene = succeed(manylight().args(["scene", "street", "--json"]));
-    let scene: serde_json::Value = serde_json::from_slice(&scene.stdout).unwrap();
-    let triangles = scene["triangles"].as_u64().unwrap();
-    assert!((40_000..60_000).contains(&triangles), "{triangles} triangles");
-}
-
-#[test]
-fn recordings_are_imported_and_baked_and_flown() {
-    let directory = tempfile::tempdir().unwrap();
-    let imported = directory.path().join("imported.json");
-    let source = manylight_tests::data("replay_bistro.bin");
-    succeed(manylight().arg("import-recording").arg(source).args(["--hmd", "vive", "--out"]).arg(&imported));
-    let bundled = Path::new(env!("CARGO_MANIFEST_DIR")).join("../recordings/bistro-vive.json");
-    assert_eq!(read(&imported), read(bundled));
-    let mirrored = |plane| {
-        let mut command = manylight();
-        command
-            .arg("import-recording")
-            .arg(manylight_tests::data("replay_bistro.bin"))
-            .arg("--out")
-            .arg(&imported);
-        command.args(["--hmd", "vive", "--mirror", plane]);
-        command
-    };
-    succeed(&mut mirrored("0,2,0,0.04"));
-    let bundled = Path::new(env!("CARGO_MANIFEST_DIR")).join("../recordings/bistro-mirror.json");
-    assert_eq!(read(&imported), read(bundled));
-    assert!(refused(&mut mirrored("0,0,0,1")).contains("has no direction"));
-    assert!(refused(&mut mirrored("0,-1,0")).contains("no plane NX,NY,NZ,D"));
-
-    let waypoints = directory.path().join("waypoints.json");
-    fs::write(
-        &waypoints,
-        r#"{"format": "manylight.waypoints/1", "dt_s": 0.05, "near": 0.4, "far": 100, "fov": 1.2, "waypoints": [
-            {"position": [0, 20, 0], "target": [10, 0, 10], "time_s": 0},
-            {"position": [5, 22, 0], "target": [10, 0, 10], "time_s": 0.5}]}"#,
-    )
-    .unwrap();
-    let baked = directory.path().join("baked.json");
-    succeed(manylight().arg("bake-recording").arg(&waypoints).arg("--out").arg(&baked));
-    let out = directory.path().join("out");
-    succeed(small(&out).args(["--frames", "0..2", "--recording"]).arg(&baked));
-}
-
-#[test]
-fn completions_are_written_for_a_shell() {
-    let script = succeed(manylight().args(["completions", "bash"]));
-    assert!(String::from_utf8_lossy(&script.stdout).contains("--displaced-volume"));
-}
-
-#[test]
-fn results_are_compared_and_a_difference_is_an_exit_code() {
-    let root = tempfile::tempdir().unwrap();
-    let out = |name: &str| root.path().join(name);
-    let compare = |a: &str, b: &str| output(manylight().arg("compare").args([out(a), out(b)]));
-    succeed(small(&out("a")).args(["--runs", "2"]));
-    succeed(&mut small(&out("b")));
-    succeed(small(&out("fewer")).args(["--frames", "300", "--runs", "0"]));
-    let same = compare("a", "b");
-    assert_eq!(same.status.code(), Some(0), "{}", String::from_utf8_lossy(&same.stdout));
-    let differs = compare("a", "fewer");
-    assert_eq!(differs.status.code(), Some(1));
-    assert_eq!(stderr(&differs).lines().count(), 1, "{}", stderr(&differs));
-    assert!(String::from_utf8_lossy(&differs.stdout).contains("missing in B: frames 380"));
-    let json = output(manylight().args(["compare", "--json"]).args([out("a"), out("a")]));
-    let json: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
-    assert_ne!(json["runs"][0]["times"][0]["verdict"], "slower");
-    let page = out("page.html");
-    let mut markdown = manylight();
-    markdown.args(["compare", "--markdown", "--fail-slower", "5", "--html"]);
-    let markdown = succeed(markdown.arg(&page).args([out("a"), out("a"), out("a")]));
-    assert!(String::from_utf8_lossy(&markdown.stdout).starts_with("### manylight compare: 0 slower, "));
-    assert!(read(page).contains("manylight compare"));
-    assert!(refused(manylight().args(["compare", "a", "b", "--threshold=-1"])).contains("percentage"));
-    assert!(refused(manylight().arg("compare").args([out("a"), out("nowhere")])).contains("nowhere"));
-}
-
-#[test]
 fn a_trace_has_every_stage_of_the_chosen_frames_inside_its_parent() {
     let out = tempfile::tempdir().unwrap();
     succeed(small(out.path()).args(["--trace", "380", "--runs", "2"]));
@@ -412,40 +287,4 @@ fn a_trace_has_every_stage_of_the_chosen_frames_inside_its_parent() {
     assert!(message.contains("trace: frame 381"), "{message}");
     let message = refused(small(out.path()).args(["--trace", "--runs", "0"]));
     assert!(message.contains("trace") && message.contains("runs"), "{message}");
-}
-
-#[test]
-fn a_still_is_written_as_png_and_exr() {
-    let out = tempfile::tempdir().unwrap();
-    let still = |args: &[&str]| {
-        let mut command = manylight();
-        command.args(["still", "--quiet", "--resolution", "64x40", "--frame", "300", "--lights", "100"]);
-        command.args(["--method", "encl-ortho-4", "--out"]).arg(out.path()).args(args);
-        command
-    };
-    let written = succeed(&mut still(&["--view", "birdseye", "--show", "clusters,frusta", "--validate"]));
-    assert!(String::from_utf8_lossy(&written.stdout).contains("visible clusters"));
-    for extension in ["png", "exr"] {
-        assert!(out.path().join(format!("000300_encl-ortho-4_birdseye.{extension}")).is_file());
-    }
-    succeed(&mut still(&["--eye", "-9,1.8,9", "--target", "-4,3,-8", "--fov", "1.4", "--validate"]));
-    assert!(out.path().join("000300_encl-ortho-4_eye.png").is_file());
-    for (args, expected) in [
-        (&["--runs", "2"][..], "--runs"),
-        (&["--view", "above"], "birdseye"),
-        (&["--show", "clusters,light-count"], "exclude each other"),
-        (&["--method", "indi-persp-64"], "once"),
-        (&["--frame", "9000"], "reach beyond"),
-        (&["--eye", "1,2,3"], "--target"),
-        (&["--target", "1,2,3"], "--eye"),
-        (&["--fov", "1"], "--eye"),
-        (&["--eye", "1,2", "--target", "0,0,0"], "no place X,Y,Z"),
-        (&["--eye", "-1,2,-3", "--target", "-1,2,-3"], "target: it is where the eye is"),
-        (&["--eye", "1,inf,3", "--target", "0,0,0"], "eye: 1,inf,3 is not within"),
-        (&["--eye", "1,2,3", "--target", "0,0,0", "--fov", "-1"], "radians"),
-        (&["--eye", "1,2,3", "--target", "0,0,0", "--view", "mono"], "cannot be used with"),
-    ] {
-        let message = refused(&mut still(args));
-        assert!(message.contains(expected), "{message}");
-    }
 }

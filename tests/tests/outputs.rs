@@ -2,12 +2,13 @@
 #![cfg(unix)]
 
 use manylight_tests::manylight;
+use manylight_tests::program::{output, refused, succeed, text};
 use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::os::unix::ffi::OsStrExt;
 use std::os::unix::fs::symlink;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 
 const WAYPOINTS: &str = r#"{"format": "manylight.waypoints/1", "dt_s": 0.05, "near": 0.4, "far": 100, "fov": 1.2,
     "waypoints": [{"position": [0, 20, 0], "target": [10, 0, 10], "time_s": 0},
@@ -24,29 +25,6 @@ fn replay(out: &Path, more: &[&str]) -> Command {
     let mut command = command(&["replay", "--resolution", "32x20", "--frames", "300", "--runs", "1"]);
     command.args(["--lights", "50", "--method", "indi-ortho-16", "--out"]).arg(out).args(more);
     command
-}
-
-fn output(command: &mut Command) -> Output {
-    command.output().expect("the program starts")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
-
-/// The one line on standard error, after exit code 2.
-fn refused(command: &mut Command) -> String {
-    let output = output(command);
-    let message = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{command:?}: {message}");
-    assert_eq!(message.lines().count(), 1, "{command:?}: {message}");
-    message
-}
-
-fn succeed(command: &mut Command) -> Output {
-    let output = output(command);
-    assert!(output.status.success(), "{command:?}: {}", text(&output.stderr));
-    output
 }
 
 /// A device that is always full.

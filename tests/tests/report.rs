@@ -5,7 +5,7 @@ use manylight::measure::{
     ClusterRecord, ClusteringCounts, DeviceCounts, FrameCounts, FrameTimes, StageTime, ViewPixels,
 };
 use manylight::output::{Manifest, RUN_FORMAT, RunWriter, Source};
-use manylight_tests::manylight;
+use manylight_tests::{manylight, program};
 use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
@@ -132,13 +132,9 @@ fn report(arguments: &[&OsStr]) -> Output {
     manylight().arg("report").args(arguments).output().expect("the program starts")
 }
 
-/// The one line on standard error, after exit code 2.
+/// The one line that a report refuses its arguments with.
 fn refused(arguments: &[&OsStr]) -> String {
-    let output = report(arguments);
-    let message = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{message}");
-    assert_eq!(message.lines().count(), 1, "{message}");
-    message
+    program::refused(manylight().arg("report").args(arguments))
 }
 
 const OF_THE_THESIS: [&str; 20] = [

@@ -1,6 +1,7 @@
 //! Results on disk: damaged ones are refused, a run is known by what it was asked to do, lights by what they are.
 
 use manylight_tests::manylight;
+use manylight_tests::program::{output, refused, succeed, text};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -73,29 +74,6 @@ impl Inputs {
     fn compare(&self, a: &str, b: &str) -> Output {
         output(self.command().args(["compare", a, b]))
     }
-}
-
-fn output(command: &mut Command) -> Output {
-    command.output().expect("the program starts")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
-
-fn succeed(command: &mut Command) -> Output {
-    let output = output(command);
-    assert!(output.status.success(), "{command:?}: {}", text(&output.stderr));
-    output
-}
-
-/// The one line on standard error, after exit code 2.
-fn refused(command: &mut Command) -> String {
-    let output = output(command);
-    let message = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{command:?}: {message}");
-    assert_eq!(message.lines().count(), 1, "{command:?}: {message}");
-    message
 }
 
 /// Puts `cell` into a column of the first row of a table.

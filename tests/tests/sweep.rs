@@ -1,10 +1,11 @@
 //! Sweeps: the product of axes, skipping, failing, sharing, and going on after being killed.
 
+use manylight_tests::program::{printed, read, refused_with};
 use manylight_tests::{copy_shaders, manylight};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 const METHODS: [&str; 2] = ["indi-ortho-16", "encl-persp-32"];
@@ -17,33 +18,6 @@ fn small(out: &Path) -> Command {
     command.args(METHODS.iter().flat_map(|method| ["--method", method]));
     command.arg("--out").arg(out);
     command
-}
-
-fn output(command: &mut Command) -> Output {
-    command.output().expect("the program starts")
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-fn succeed(command: &mut Command) -> String {
-    let output = output(command);
-    assert!(output.status.success(), "{}", stderr(&output));
-    String::from_utf8_lossy(&output.stdout).into_owned()
-}
-
-/// The one line on standard error, after this exit code.
-fn refused(command: &mut Command, code: i32) -> String {
-    let output = output(command);
-    let message = stderr(&output);
-    assert_eq!(output.status.code(), Some(code), "{message}");
-    assert_eq!(message.lines().count(), 1, "{message}");
-    message
-}
-
-fn read(path: impl AsRef<Path>) -> String {
-    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.as_ref().display()))
 }
 
 /// When the run at `path` was put there, as its manifest's bytes and its directory's identity tell.
@@ -81,7 +55,7 @@ fn axes_are_multiplied_without_what_is_excluded() {
     let out = tempfile::tempdir().unwrap();
     let scenes = ["--scenes", "street=bistro-vive", "--scenes", "temple=suntem,40x24"];
     let rules = ["--exclude", "scene=temple,method=encl-*", "--exclude", "recording=*-vive,lights=90"];
-    let names = succeed(small(out.path()).args(scenes).args(rules).arg("--list-runs"));
+    let names = printed(small(out.path()).args(scenes).args(rules).arg("--list-runs"));
     let expected = [
         "street/indi-ortho-16_50",
         "street/encl-persp-32_50",
@@ -89,7 +63,7 @@ fn axes_are_multiplied_without_what_is_excluded() {
         "temple/indi-ortho-16_90",
     ];
     assert_eq!(names.lines().collect::<Vec<_>>(), expected);
-    succeed(small(out.path()).args(scenes).args(rules));
+    printed(small(out.path()).args(scenes).args(rules));
     for name in expected {
         assert!(out.path().join(name).join("run.json").is_file(), "{name}");
     }
@@ -107,16 +81,16 @@ fn axes_are_multiplied_without_what_is_excluded() {
 fn complete_runs_are_made_again_only_where_something_changed() {
     let out = tempfile::tempdir().unwrap();
     let run = out.path().join("indi-ortho-16_50");
-    succeed(&mut small(out.path()));
+    printed(&mut small(out.path()));
     let first = made(&run);
     let table = read(out.path().join("summary.csv"));
-    succeed(&mut small(out.path()));
+    printed(&mut small(out.path()));
     assert_eq!(made(&run), first, "an unchanged run was made again");
     assert_eq!(read(out.path().join("summary.csv")), table);
-    succeed(small(out.path()).arg("--force"));
+    printed(small(out.path()).arg("--force"));
     let forced = made(&run);
     assert_ne!(forced, first, "--force made nothing");
-    succeed(small(out.path()).args(["--resolution", "48x34"]));
+    printed(small(out.path()).args(["--resolution", "48x34"]));
     let changed = made(&run);
     assert_ne!(changed, forced, "a changed resolution was not noticed");
     assert_ne!(read(out.path().join("summary.csv")), table);
@@ -128,7 +102,7 @@ fn changed_shaders_are_noticed() {
     let shaders = directory.path().join("shaders");
     copy_shaders(&shaders);
     let out = directory.path().join("out");
-    let replay = || succeed(small(&out).args(["--only", "indi-ortho-16_50", "--shaders"]).arg(&shaders));
+    let replay = || printed(small(&out).args(["--only", "indi-ortho-16_50", "--shaders"]).arg(&shaders));
     replay();
     let first = made(&out.join("indi-ortho-16_50"));
     let changed = shaders.join("lib/brdf.glsl");
@@ -170,7 +144,7 @@ fn a_failing_run_is_recorded_and_the_rest_go_on() {
         command.args(["--exclude", "lights=90"]);
         command
     };
-    let message = refused(&mut sweep(), 3);
+    let message = refused_with(&mut sweep(), 3);
     assert!(message.contains("2 of 6 runs failed") && message.contains("broken.gltf"), "{message}");
     let record = out.join("broken/indi-ortho-16_50.error.json");
     let error: serde_json::Value = serde_json::from_str(&read(&record)).unwrap();
@@ -180,7 +154,7 @@ fn a_failing_run_is_recorded_and_the_rest_go_on() {
     let street = made(&out.join("street/encl-persp-32_50"));
 
     triangle(&broken);
-    succeed(&mut sweep());
+    printed(&mut sweep());
     assert!(!record.exists(), "the mended run's failure stayed");
     assert_eq!(read(out.join("summary.csv")).lines().count(), 7);
     assert_eq!(made(&out.join("street/encl-persp-32_50")), street);
@@ -189,19 +163,19 @@ fn a_failing_run_is_recorded_and_the_rest_go_on() {
 #[test]
 fn two_shards_are_one_sweep() {
     let [whole, shared] = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
-    succeed(&mut small(whole.path()));
-    succeed(small(shared.path()).args(["--shard", "1/2"]));
+    printed(&mut small(whole.path()));
+    printed(small(shared.path()).args(["--shard", "1/2"]));
     assert_eq!(read(shared.path().join("summary.csv")).lines().count(), 3);
-    succeed(small(shared.path()).args(["--shard", "2/2"]));
+    printed(small(shared.path()).args(["--shard", "2/2"]));
     assert_eq!(tables(whole.path()), tables(shared.path()));
 
     // By name, one after the other, as a workflow does; then the table alone.
     let named = tempfile::tempdir().unwrap();
-    for name in succeed(small(named.path()).arg("--list-runs")).lines() {
-        succeed(small(named.path()).args(["--only", name]));
+    for name in printed(small(named.path()).arg("--list-runs")).lines() {
+        printed(small(named.path()).args(["--only", name]));
     }
     fs::remove_file(named.path().join("summary.csv")).unwrap();
-    succeed(small(named.path()).arg("--summarize"));
+    printed(small(named.path()).arg("--summarize"));
     assert_eq!(tables(whole.path()), tables(named.path()));
 }
 
@@ -209,7 +183,7 @@ fn two_shards_are_one_sweep() {
 fn twenty_kills_leave_no_trace_in_the_result() {
     let [undisturbed, disturbed] = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
     let began = Instant::now();
-    succeed(&mut small(undisturbed.path()));
+    printed(&mut small(undisturbed.path()));
     let whole = began.elapsed();
     // A fixed sequence of moments that falls everywhere in a sweep: multiples of the golden ratio, modulo one.
     for kill in 1..=20_u32 {
@@ -225,7 +199,7 @@ fn twenty_kills_leave_no_trace_in_the_result() {
         let _ = child.kill();
         child.wait().unwrap();
     }
-    succeed(&mut small(disturbed.path()));
+    printed(&mut small(disturbed.path()));
     assert_eq!(tables(undisturbed.path()), tables(disturbed.path()));
     no_temporaries(disturbed.path());
 }
@@ -246,7 +220,7 @@ fn what_cannot_be_swept_is_refused_in_one_line() {
         (&["--summarize"], "no complete run"),
     ];
     for (flags, named) in cases {
-        let message = refused(small(&out).args(flags), 2);
+        let message = refused_with(small(&out).args(flags), 2);
         assert!(message.contains(named), "{flags:?}: {message}");
         assert!(!out.exists(), "{flags:?} left output behind");
     }
@@ -261,7 +235,7 @@ fn what_cannot_be_swept_is_refused_in_one_line() {
     ] {
         let file = directory.path().join("sweep.json");
         fs::write(&file, text).unwrap();
-        let message = refused(manylight().args(["replay", "--quiet", "--config"]).arg(&file), 2);
+        let message = refused_with(manylight().args(["replay", "--quiet", "--config"]).arg(&file), 2);
         assert!(message.contains("sweep.json") && message.contains(named), "{text}: {message}");
     }
 }

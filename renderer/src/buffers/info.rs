@@ -25,23 +25,24 @@ pub enum Owner {
 /// A way for shaders to read a buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u32)]
-pub enum View {
-    /// Read and written in any order.
+pub enum BufferView {
+    /// Storage buffer: read and written in any order.
     Storage,
-    /// Read with an index of each thread's own: llvmpipe fetches a texel for all lanes at once, where it takes storage
-    /// buffers lane by lane and word by word.
+    /// Texel view, read with an index of each thread's own: llvmpipe fetches a texel for all lanes at once, where it
+    /// takes storage buffers lane by lane and word by word.
     Texels,
-    /// Read alike by all threads: llvmpipe reads a word once for all lanes, also where the flow of control has parted.
+    /// Uniform buffer, read alike by all threads: llvmpipe reads a word once for all lanes, also where the flow of
+    /// control has parted.
     Uniform,
 }
 
-impl View {
+impl BufferView {
     /// All ways, in the order of their bindings.
     pub const ALL: [Self; 3] = [Self::Storage, Self::Texels, Self::Uniform];
-    /// How many ways there are.
+    /// How many ways of viewing a buffer there are.
     pub const COUNT: u32 = Self::ALL.len() as u32;
 
-    /// What a descriptor set holds for it.
+    /// Type of descriptor that a set holds for the view.
     pub fn descriptor(self) -> vk::DescriptorType {
         match self {
             Self::Storage => vk::DescriptorType::STORAGE_BUFFER,
@@ -54,7 +55,7 @@ impl View {
 /// What an array that is read as texels has for elements.
 #[derive(Debug, Clone, Copy)]
 pub enum Element {
-    /// `uint`
+    /// A `uint`.
     Word,
     /// A struct that fills its texels of four words.
     Struct(StructInfo),
@@ -65,7 +66,7 @@ pub enum Element {
 pub struct Texels {
     /// The view is `<stem>_texels`, an element is `read_<stem>(index)`.
     pub stem: &'static str,
-    /// What is read.
+    /// What one read of the view gives.
     pub element: Element,
 }
 
@@ -96,15 +97,15 @@ impl Texels {
 pub struct BufferInfo {
     /// In messages, debug names and growth events; that of its member in GLSL, where it has one.
     pub name: &'static str,
-    /// Who makes and writes it.
+    /// Who makes and writes the buffer.
     pub owner: Owner,
     /// GLSL members of the storage buffer.
     pub storage: Option<&'static str>,
-    /// Its view as texels.
+    /// How the buffer is viewed as texels; `None` where it is not.
     pub texels: Option<Texels>,
     /// GLSL member of the uniform buffer.
     pub uniform: Option<&'static str>,
-    /// Bytes, where a clustering's sizes decide; 0 where the way at hand leaves it empty.
+    /// Size in bytes, where a clustering's sizes decide; 0 where the way at hand leaves the buffer empty.
     pub size: Option<fn(&ClusteringSizes) -> u64>,
 }
 
@@ -113,7 +114,7 @@ pub(super) const fn buffer(name: &'static str, owner: Owner) -> BufferInfo {
     BufferInfo { name, owner, storage: None, texels: None, uniform: None, size: None }
 }
 
-/// Bytes of `count` values.
+/// Size in bytes of `count` values.
 pub(super) const fn bytes<T>(count: u64) -> u64 {
     size_of::<T>() as u64 * count
 }
@@ -139,12 +140,12 @@ impl BufferInfo {
         self
     }
 
-    /// Whether it stays as it is while a frame runs, so that no pass waits for it.
+    /// Whether the buffer stays as it is while a frame runs, so that no pass waits for it.
     pub fn is_constant(&self) -> bool {
         matches!(self.owner, Owner::Frame | Owner::Scene | Owner::ClusteringFrame)
     }
 
-    /// What it may be used for besides [`View`]s: copied, filled and dispatched from, unless it is constant.
+    /// What the buffer may be used for besides its views: copied, filled and dispatched from, unless it is constant.
     pub fn usage(&self) -> vk::BufferUsageFlags {
         use vk::BufferUsageFlags as U;
         let views = [
@@ -158,14 +159,14 @@ impl BufferInfo {
 }
 
 impl BufferName {
-    /// Its declarations in GLSL.
+    /// Declarations of the buffer in GLSL, one for each view.
     pub(super) fn glsl(self) -> String {
         let info = self.info();
         let layout = |view| format!("layout(set = SET_BUFFERS, binding = {}", self.binding(view));
         let mut text = String::new();
         if let Some(members) = info.storage {
             let access = if info.is_constant() { "readonly " } else { "" };
-            let layout = layout(View::Storage);
+            let layout = layout(BufferView::Storage);
             let _ = writeln!(text, "{layout}, scalar) {access}buffer {self:?}Buffer {{ {members}; }};");
         }
         if let Some(texels) = &info.texels {
@@ -173,14 +174,17 @@ impl BufferName {
             let _ = writeln!(
                 text,
                 "{}) uniform {sign}textureBuffer {}_texels;",
-                layout(View::Texels),
+                layout(BufferView::Texels),
                 texels.stem
             );
             text.push_str(&texels.reader());
         }
         if let Some(member) = info.uniform {
-            let _ =
-                writeln!(text, "{}, scalar) uniform {self:?}Uniform {{ {member}; }};", layout(View::Uniform));
+            let _ = writeln!(
+                text,
+                "{}, scalar) uniform {self:?}Uniform {{ {member}; }};",
+                layout(BufferView::Uniform)
+            );
         }
         text
     }

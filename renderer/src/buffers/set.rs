@@ -4,13 +4,13 @@ use super::{BUFFER_COUNT, BufferName};
 use std::fmt;
 use std::ops::{BitOr, Sub};
 
-/// Some of the buffers.
+/// A set of the buffers that shaders see.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
 pub struct BufferSet(u64);
 
 const _: () = assert!(BUFFER_COUNT <= u64::BITS as usize, "a set has a bit for each buffer");
 
-/// The set of `names`.
+/// The set of the buffers `names`.
 pub const fn set(names: &[BufferName]) -> BufferSet {
     let (mut bits, mut place) = (0, 0);
     while place < names.len() {
@@ -21,20 +21,20 @@ pub const fn set(names: &[BufferName]) -> BufferSet {
 }
 
 impl BufferSet {
-    /// None of them.
+    /// The set of no buffers.
     pub const EMPTY: Self = Self(0);
 
-    /// Adds one.
+    /// Adds one buffer to the set.
     pub fn insert(&mut self, name: BufferName) {
         self.0 |= set(&[name]).0;
     }
 
-    /// Whether one is among them.
+    /// Whether a buffer is in the set.
     pub fn contains(self, name: BufferName) -> bool {
         self.0 & set(&[name]).0 != 0
     }
 
-    /// Those among them, in the order of the table.
+    /// Buffers of the set, in the order of the table.
     pub fn names(self) -> impl Iterator<Item = BufferName> {
         BufferName::ALL.into_iter().filter(move |&name| self.contains(name))
     }

@@ -2,7 +2,7 @@
 
 use super::BufferName;
 use crate::assign::{self, Assigner, Clusters};
-use crate::gpu_interface::{ASSIGN_GROUP, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS};
+use crate::gpu_interface::{ASSIGN_WORKGROUP, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS};
 use crate::measure::Capacities;
 use crate::vk::{Limits, texel_bytes};
 use crate::{Error, Result};
@@ -12,13 +12,13 @@ use crate::{Error, Result};
 pub struct ClusteringSizes {
     /// Clusters of the grid (largest of all frames); 0 for a method without clusters.
     pub clusters: u64,
-    /// Which of them get lists.
+    /// Which clusters get lists.
     pub listed: Clusters,
     /// Depths between slices of a perspective grid (most of all frames).
     pub slice_planes: u32,
     /// Lights (most of all frames).
     pub lights: u32,
-    /// Entries.
+    /// How many entries the buffers of visible clusters and light indices hold.
     pub capacities: Capacities,
     /// How the lists are built.
     pub assigner: Assigner,
@@ -42,7 +42,7 @@ impl ClusteringSizes {
         self.capacities.visible_clusters.into()
     }
 
-    /// Where their lists begin, and where the last one ends; none without clusters.
+    /// Entries of the offsets of lists: where each begins, and where the last one ends; none without clusters.
     pub(super) fn offsets(&self) -> u64 {
         if self.visible() > 0 { self.visible() + 1 } else { 0 }
     }
@@ -58,13 +58,13 @@ impl ClusteringSizes {
     }
 
     /// `size` where lights are culled before they are assigned, else nothing.
-    pub(super) fn culled(&self, size: u64) -> u64 {
+    pub(super) fn for_culled_lights(&self, size: u64) -> u64 {
         if self.assigner == Assigner::Brute { 0 } else { size }
     }
 
     /// Words of a bit for each light that may be a candidate.
-    pub(super) fn culled_words(&self) -> u64 {
-        self.culled(self.lights.into()).div_ceil(32)
+    pub(super) fn culled_light_words(&self) -> u64 {
+        self.for_culled_lights(self.lights.into()).div_ceil(32)
     }
 
     /// Lights in the hierarchy.
@@ -72,14 +72,14 @@ impl ClusteringSizes {
         if self.assigner == Assigner::Hierarchy { u64::from(self.lights) } else { 0 }
     }
 
-    /// Nodes above them.
+    /// Nodes of the hierarchy, lights not counted.
     pub(super) fn nodes(&self) -> u64 {
         if self.tree_lights() > 0 { assign::tree_nodes(self.lights) } else { 0 }
     }
 
     /// Groups of visible clusters that scatter makes.
     pub(super) fn groups(&self) -> u64 {
-        let groups = u64::from(self.capacities.visible_clusters.div_ceil(ASSIGN_GROUP));
+        let groups = u64::from(self.capacities.visible_clusters.div_ceil(ASSIGN_WORKGROUP));
         if self.assigner == Assigner::Scatter { groups } else { 0 }
     }
 
@@ -92,9 +92,9 @@ impl ClusteringSizes {
         }
     }
 
-    /// Tiles of those.
-    pub(super) fn group_tiles(&self) -> u64 {
-        self.group_lights() / u64::from(ASSIGN_GROUP)
+    /// Packets of lights of all groups of clusters.
+    pub(super) fn group_packets(&self) -> u64 {
+        self.group_lights() / u64::from(ASSIGN_WORKGROUP)
     }
 
     /// Counts of the digits of all blocks of the sort.
@@ -109,7 +109,7 @@ impl ClusteringSizes {
 
     /// Items of the longest prefix sum.
     fn scan_items(&self) -> u64 {
-        self.words().max(self.visible()).max(self.digit_counts()).max(self.culled_words())
+        self.words().max(self.visible()).max(self.digit_counts()).max(self.culled_light_words())
     }
 
     /// The most entries that the device's buffers hold.
@@ -118,7 +118,7 @@ impl ClusteringSizes {
         let groups = u64::from(limits.max_compute_work_group_count[0]);
         let entries = |words: u64| u32::try_from(words).unwrap_or(u32::MAX);
         Capacities {
-            visible_clusters: entries((words - 1).min(groups * u64::from(ASSIGN_GROUP))),
+            visible_clusters: entries((words - 1).min(groups * u64::from(ASSIGN_WORKGROUP))),
             light_indices: entries(words.min(limits.max_texel_buffer_elements)),
         }
     }
@@ -151,11 +151,11 @@ impl ClusteringSizes {
         }
         let [most_x, most_y, _] = limits.max_compute_work_group_count.map(u64::from);
         let (lights, visible) = (self.lights, self.capacities.visible_clusters);
-        let tiles = u64::from(lights.div_ceil(ASSIGN_GROUP));
-        let groups = u64::from(visible.div_ceil(ASSIGN_GROUP));
+        let packets = u64::from(lights.div_ceil(ASSIGN_WORKGROUP));
+        let groups = u64::from(visible.div_ceil(ASSIGN_WORKGROUP));
         let blocks = self.scan_blocks();
         for (what, workgroups, most) in [
-            (format!("{lights} lights"), tiles, most_x.min(most_y)),
+            (format!("{lights} lights"), packets, most_x.min(most_y)),
             (format!("{visible} visible clusters"), groups, most_x),
             (format!("{} clusters", self.clusters), blocks, most_x),
         ] {

@@ -15,7 +15,7 @@ use glam::{DVec3, DVec4};
 /// about three times as much.
 const SLACK_PER_METRE: f32 = 8e-7;
 
-/// That bound, for each metre beyond.
+/// The same bound for each metre that a corner or a grid lies beyond [`WIDE`] or [`AT_HOME`].
 const SLACK_PER_METRE_BEYOND: f64 = 2.4e-6;
 
 /// Corners of views up to so many reaches from the apex: those of a headset are at 2.27.

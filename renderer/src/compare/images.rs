@@ -6,7 +6,7 @@
 use super::flip::flip;
 use crate::output::{cubehelix, tone_map, write_png};
 use crate::{Error, Result};
-use exr::prelude::{AnyChannels, FlatSamples, Layer, ReadChannels, ReadLayers, read};
+use exr::prelude::{AnyChannels, FlatSamples, Layer, ReadChannels, ReadLayers, Text, read};
 use image::{Rgb, RgbImage};
 use serde::Serialize;
 use std::fmt;
@@ -92,7 +92,29 @@ fn layers(path: &Path) -> Result<Vec<AnyLayer>> {
         .all_attributes()
         .from_file(path)
         .map_err(|error| Error::file(path, format!("is no EXR image that can be read: {error}")))?;
-    Ok(image.layer_data.into_iter().collect())
+    Ok(image.layer_data.into_iter().flat_map(by_view).collect())
+}
+
+/// The views of a layer that holds several: the first view's channels have their plain names, another's are behind its own
+/// name and a point. Any other layer as it is.
+fn by_view(layer: AnyLayer) -> Vec<AnyLayer> {
+    let Some(views) = layer.attributes.multi_view_names.clone() else { return vec![layer] };
+    let prefixes: Vec<String> = views.iter().skip(1).map(|view| format!("{view}.")).collect();
+    let plain = |name: &str| !prefixes.iter().any(|prefix| name.starts_with(prefix));
+    let of_view = |(number, view): (usize, &Text)| {
+        let mut this = layer.clone();
+        this.attributes.layer_name = Some(view.clone());
+        this.channel_data.list.retain_mut(|channel| {
+            let name = channel.name.to_string();
+            let own = match number {
+                0 => plain(&name).then_some(name.as_str()),
+                _ => name.strip_prefix(&prefixes[number - 1]),
+            };
+            own.map(|own| channel.name = own.into()).is_some()
+        });
+        this
+    };
+    views.iter().enumerate().map(of_view).collect()
 }
 
 fn name(layer: &AnyLayer) -> String {
@@ -254,12 +276,13 @@ impl fmt::Display for ImageComparison {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::config::ExrLayout;
     use crate::output::{testing::view, write_exr};
 
     fn write(run: &Path, change: impl Fn(&mut crate::measure::ViewPixels)) {
         let mut views = [view("left", 8, 5), view("right", 8, 5)];
         change(&mut views[1]);
-        write_exr(&run.join("frames/000300.exr"), &views).unwrap();
+        write_exr(&run.join("frames/000300.exr"), &views, ExrLayout::Multipart).unwrap();
     }
 
     #[test]
@@ -295,6 +318,23 @@ mod tests {
     }
 
     #[test]
+    fn views_in_one_part_are_those_in_parts() {
+        let root = tempfile::tempdir().unwrap();
+        let [a, b] = ["a", "b"].map(|name| root.path().join(name));
+        write(&a, |_| ());
+        let mut views = [view("left", 8, 5), view("right", 8, 5)];
+        views[1].light_count[3] += 1;
+        write_exr(&b.join("frames/000300.exr"), &views, ExrLayout::Multiview).unwrap();
+        let compared = compare([&a, &b], None).unwrap();
+        let [left, right] = compared.as_slice() else { panic!("two layers: {compared:?}") };
+        assert!((left.layer.as_str(), right.layer.as_str()) == ("left", "right"));
+        assert!(!left.differs() && left.channels.len() == 8, "{left}");
+        let differing: Vec<&str> =
+            right.channels.iter().filter(|c| c.pixels_differing > 0).map(|c| c.channel.as_str()).collect();
+        assert_eq!((differing, right.channels.len()), (vec!["light_count"], 8));
+    }
+
+    #[test]
     fn what_is_no_image_is_refused_by_name() {
         let root = tempfile::tempdir().unwrap();
         let run = root.path();
@@ -308,7 +348,8 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         let [a, b] = ["a", "b"].map(|name| root.path().join(name));
         for (run, width) in [(&a, 8), (&b, 4)] {
-            write_exr(&run.join("frames/000300.exr"), &[view("mono", width, 5)]).unwrap();
+            write_exr(&run.join("frames/000300.exr"), &[view("mono", width, 5)], ExrLayout::Multipart)
+                .unwrap();
         }
         let compared = compare([&a, &b], None).unwrap();
         assert!(compared[0].differs() && compared[0].not_compared.len() == 8 && compared[0].flip.is_none());

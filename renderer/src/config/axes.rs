@@ -24,25 +24,25 @@ pub enum Role {
 /// What a rule of `exclude` calls values by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Values {
-    /// Names, in which `*` stands for any text.
+    /// Texts, in which `*` stands for anything.
     Names,
-    /// Numbers.
+    /// Numbers, compared as such.
     Counts,
 }
 
 /// An axis. A configuration may have several values on it; that of a run has one.
 pub struct Axis {
-    /// Its name in rules.
+    /// Name of the axis in rules that exclude.
     pub name: &'static str,
     /// What rules know of it, for the schema.
     pub description: &'static str,
-    /// Its column in CSV and JSON.
+    /// Column of the axis in CSV and JSON.
     pub column: &'static str,
-    /// What it is to a run.
+    /// What part the axis plays in a run.
     pub role: Role,
     /// What rules call its values by.
     pub values: Values,
-    /// Whether the runs of a method differ along it.
+    /// Whether the runs of a method differ along the axis.
     pub applies: fn(&Method) -> bool,
     /// How many values a configuration gives.
     count: fn(&Config) -> usize,
@@ -167,7 +167,7 @@ impl Axis {
         AXES.iter().filter(move |axis| axis.role == role)
     }
 
-    /// Those that tables have columns for, in the columns' order.
+    /// Axes that tables have columns for, in the columns' order.
     pub fn told() -> impl Iterator<Item = &'static Self> {
         [Role::Scene, Role::Method, Role::Lighting, Role::Way].into_iter().flat_map(Self::of_role)
     }
@@ -237,7 +237,7 @@ impl PartialEq for Axis {
 pub struct Labels(Vec<(&'static Axis, String)>);
 
 impl Labels {
-    /// Those of a run of the configuration `all`, whose scene is one.
+    /// Values on all axes of a run of the configuration `all`, which has one scene.
     pub fn new(run: &Config, all: &Config) -> Self {
         let label = |axis: &'static Axis| match axis.role == Role::Lighting || axis.tells_apart(run, all) {
             true => (axis, axis.label(run, all)),
@@ -246,7 +246,7 @@ impl Labels {
         Self(Axis::told().map(label).collect())
     }
 
-    /// The same, with the scene told.
+    /// These values, with the scene told.
     #[must_use]
     pub fn of_scene(mut self, scene: &str) -> Self {
         for (_, label) in self.0.iter_mut().filter(|(axis, _)| axis.role == Role::Scene) {

@@ -13,12 +13,12 @@ use std::str::FromStr;
 pub enum Test {
     /// The thesis's own: half spaces in perspective grids, the box in orthographic ones.
     Auto,
-    /// This one.
+    /// The test of this name.
     Named(SphereTest),
 }
 
 impl Test {
-    /// What it is for the clusters of `method`; a method without clusters asks nothing.
+    /// The test that is asked of the clusters of `method`; a method without clusters asks nothing.
     pub fn of(self, method: &Method) -> SphereTest {
         match self {
             Self::Named(test) => test,
@@ -27,7 +27,7 @@ impl Test {
         }
     }
 
-    /// By its name for the clusters of `method`; a method without clusters has none.
+    /// The test by its name for the clusters of `method`; a method without clusters has none.
     pub fn resolved(self, method: &Method) -> Self {
         if !method.has_lists() { Self::Auto } else { Self::Named(self.of(method)) }
     }

@@ -8,7 +8,7 @@ use serde_path_to_error::{Path as FieldPath, Segment};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Reads the JSON file at `path`.
+/// Reads a layer of configuration from the JSON file at `path`.
 pub(super) fn read(path: &Path) -> Result<Layer> {
     let bytes = std::fs::read(path)
         .map_err(|error| Error::file(path, format!("the configuration cannot be read: {error}")))?;
@@ -17,7 +17,7 @@ pub(super) fn read(path: &Path) -> Result<Layer> {
     parse(&text).map_err(|message| Error::file(path, message.replace(char::is_control, " ")))
 }
 
-/// Reads JSON; an error is `line L, column C: field: what is wrong`.
+/// Reads a layer of configuration from JSON; an error is `line L, column C: field: what is wrong`.
 pub(super) fn parse(text: &str) -> Result<Layer, String> {
     let value: Value = serde_json::from_str(text).map_err(|error| positioned(&error, &message(&error)))?;
     if !value.is_object() {

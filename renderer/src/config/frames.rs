@@ -127,7 +127,7 @@ impl ExrFrames {
         }
     }
 
-    /// The same, without the frames that `rendered` leaves out.
+    /// These frames without those that `rendered` leaves out.
     #[must_use]
     pub fn within(&self, rendered: &FrameRange) -> Self {
         match self {

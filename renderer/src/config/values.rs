@@ -26,7 +26,7 @@ where
     check(value.borrow()).map(|()| value)
 }
 
-/// Reads a method's name.
+/// Reads the name of a method.
 pub(super) fn method(text: &str) -> Result<Method, String> {
     text.parse::<Method>().map_err(|error| error.to_string())
 }
@@ -36,7 +36,7 @@ pub(super) fn test(text: &str) -> Result<Test, String> {
     text.parse()
 }
 
-/// Reads `WxH`.
+/// Reads a width and height in pixels, `WxH`.
 pub fn resolution(text: &str) -> Result<[u32; 2], String> {
     let wrong = || format!("`{text}` is no resolution such as 1280x720");
     let (width, height) = text.split_once('x').ok_or_else(wrong)?;
@@ -67,7 +67,7 @@ pub(super) fn check_capacity(capacity: &u32) -> Result<(), String> {
     if *capacity > 0 { Ok(()) } else { Err("a capacity of 0: it is at least 1".into()) }
 }
 
-/// Reads a buffer capacity.
+/// Reads how many entries a buffer holds.
 pub(super) fn capacity(text: &str) -> Result<u32, String> {
     let wrong = || format!("`{text}` is no whole number from 1 to {}", u32::MAX);
     passed(text.parse().map_err(|_| wrong())?, check_capacity)
@@ -239,7 +239,7 @@ pub(super) mod ser {
         serializer.collect_seq(methods.iter().map(ToString::to_string))
     }
 
-    /// One as its name, several as a list of names.
+    /// Writes one item as its name, several as a list of names.
     pub fn one_or_several<S: Serializer, T: ToString>(items: &[T], serializer: S) -> Result<S::Ok, S::Error> {
         match items {
             [one] => serializer.serialize_str(&one.to_string()),

@@ -12,7 +12,7 @@ pub struct LightLists {
     pub offsets: Vec<u32>,
     /// Indices of lights, ascending within each list.
     pub indices: Vec<u32>,
-    /// Per visible cluster, the lights, ascending, so close to the boundary that f32 may decide otherwise.
+    /// Lights so close to the boundary of each visible cluster that f32 may decide otherwise, ascending.
     pub borderline: Vec<Vec<u32>>,
 }
 

@@ -6,15 +6,15 @@ use std::f64::consts::PI;
 /// A dielectric or metal at one point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Surface {
-    /// Unit, on the viewer's side.
+    /// Unit normal, on the viewer's side.
     pub normal: DVec3,
-    /// Unit.
+    /// Unit vector from the surface to the viewer.
     pub to_viewer: DVec3,
     /// Base colour of the dielectric part.
     pub diffuse: DVec3,
     /// Reflectance at normal incidence.
     pub f0: DVec3,
-    /// Squared perceptual roughness.
+    /// Squared perceptual roughness of the surface.
     pub alpha: f64,
 }
 

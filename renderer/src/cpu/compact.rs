@@ -8,7 +8,7 @@ pub const NOT_VISIBLE: u32 = u32::MAX;
 pub struct Compacted {
     /// Linear indices of the clusters with at least one fragment, ascending.
     pub visible: Vec<u32>,
-    /// Per cluster of the grid: its position in `visible`, or [`NOT_VISIBLE`].
+    /// Position in `visible` of each cluster of the grid, or [`NOT_VISIBLE`].
     pub visible_index: Vec<u32>,
 }
 

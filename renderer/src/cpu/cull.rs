@@ -6,9 +6,9 @@ use crate::geometry::views::View;
 /// What at least one of the views may see.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Seen {
-    /// Per box.
+    /// Whether each box may be seen.
     pub visible: Vec<bool>,
-    /// Per box, whether it touches a plane so closely that f32 may decide otherwise.
+    /// Whether each box touches a plane so closely that f32 may decide otherwise.
     pub borderline: Vec<bool>,
 }
 

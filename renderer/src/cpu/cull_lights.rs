@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 pub struct CellRange {
     /// Lowest index on each axis.
     pub low: [u32; 3],
-    /// Highest.
+    /// Highest cell of the range, on each axis.
     pub high: [u32; 3],
 }
 
@@ -37,16 +37,16 @@ impl CellRange {
 /// A light that may meet a visible cluster.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Candidate {
-    /// Which.
+    /// Index of the light in the frame.
     pub light: u32,
     /// The cells that it may meet.
     pub cells: CellRange,
 }
 
-/// What culling leaves.
+/// Lights that are left once those that reach nothing visible are dropped.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Culled {
-    /// By ascending light.
+pub struct CulledLights {
+    /// Lights that may meet a visible cluster, ascending.
     pub candidates: Vec<Candidate>,
     /// Lights, ascending, of which f32 may decide otherwise: whether they are candidates, or of which cells.
     pub borderline: Vec<u32>,
@@ -106,7 +106,12 @@ impl Blocks {
 /// Culls lights by their `volumes`, slack included, as the device has them.
 ///
 /// `epsilon` is how small a margin makes a light borderline, in metres and in cells.
-pub fn cull_lights(visible: &Visible, volumes: &[LightVolume], test: SphereTest, epsilon: f64) -> Culled {
+pub fn cull_lights(
+    visible: &Visible,
+    volumes: &[LightVolume],
+    test: SphereTest,
+    epsilon: f64,
+) -> CulledLights {
     let blocks = mark_blocks(visible.grid, visible.clusters);
     let bounds = RangeTest::new(visible.grid, &blocks.visible, test);
     let (mut candidates, mut borderline) = (vec![], vec![]);
@@ -120,7 +125,7 @@ pub fn cull_lights(visible: &Visible, volumes: &[LightVolume], test: SphereTest,
             borderline.push(light);
         }
     }
-    Culled { candidates, borderline }
+    CulledLights { candidates, borderline }
 }
 
 /// All visible clusters together, as one body with planes: most lights lie outside of it.

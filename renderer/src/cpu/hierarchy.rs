@@ -9,7 +9,7 @@ use glam::{DVec3, Vec3};
 /// A candidate's key: the higher bits of the Morton code of its place in the grid's bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Key {
-    /// The key.
+    /// The higher bits of the Morton code.
     pub key: u32,
     /// Whether f32 may round to another place.
     pub borderline: bool,
@@ -38,7 +38,7 @@ fn interleave(places: [u32; 3]) -> u32 {
     (0..30).map(|bit| (places[bit % 3] >> (bit / 3) & 1) << bit).sum()
 }
 
-/// The order of candidates by key; equal keys keep theirs.
+/// Numbers of candidates in the order of their keys; equal keys keep the order of candidates.
 pub fn sorted(keys: &[u32]) -> Vec<u32> {
     let mut order: Vec<u32> = (0..keys.len() as u32).collect();
     order.sort_by_key(|&candidate| keys[candidate as usize]);
@@ -48,11 +48,11 @@ pub fn sorted(keys: &[u32]) -> Vec<u32> {
 /// A node: the centres of its lights lie in a box, their radii are at most `radius`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Node {
-    /// Of the box, metres.
+    /// Centre of the box that holds the centres of the node's lights, metres.
     pub centre: Vec3,
-    /// Half the size of the box, metres.
+    /// Half the size of that box, metres.
     pub half_extent: Vec3,
-    /// Metres.
+    /// Largest radius of the node's lights, metres.
     pub radius: f32,
 }
 
@@ -61,7 +61,7 @@ pub struct Node {
 pub struct Tree {
     /// The nodes of each depth from 1 on, as far as there are lights under them.
     pub depths: Vec<Vec<Node>>,
-    /// The lights in order.
+    /// Volumes of the lights in the order of the tree.
     pub volumes: Vec<LightVolume>,
 }
 
@@ -101,7 +101,7 @@ fn node(children: impl Iterator<Item = (Vec3, Vec3, f32)>) -> Node {
 /// What going down a tree finds.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Descent {
-    /// By place in the tree, not by light.
+    /// Lists of the visible clusters, whose lights are named by their place in the tree.
     pub lists: FoundLists,
     /// Tests of nodes and lights.
     pub tests: u64,

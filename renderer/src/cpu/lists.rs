@@ -5,7 +5,7 @@
 pub struct FoundLists {
     /// Numbers of the lights on each list, in the order in which they were found.
     pub lights: Vec<Vec<u32>>,
-    /// Of each list, those of which f32 may decide otherwise.
+    /// Entries of each list of which f32 may decide otherwise.
     pub borderline: Vec<Vec<u32>>,
 }
 

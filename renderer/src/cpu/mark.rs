@@ -16,13 +16,13 @@ pub struct DepthImage<'a> {
     pub depths: &'a [f32],
 }
 
-/// Fragments per cluster.
+/// How many fragments lie in each cluster of a grid.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Marks {
-    /// Per cluster of the grid, how many fragments (samples) lie in it.
+    /// Number of fragments (samples) in each cluster of the grid.
     pub fragments: Vec<u32>,
-    /// Per cluster, how many fragments lie so close to one of its sides that f32 may count them in this
-    /// cluster or in a neighbour: a device's count differs from `fragments` by at most this.
+    /// Number of fragments so close to one of the sides of each cluster that f32 may count them in it or in a
+    /// neighbour: a device's count differs from `fragments` by at most this.
     pub borderline: Vec<u32>,
 }
 

@@ -16,7 +16,7 @@
 //! ```
 //!
 //! Where f32 may fall on the other side of a boundary, a twin given an epsilon says so itself ([`Marks`],
-//! [`LightLists`], [`FoundLists`], [`Culled`], [`Descent`], [`Seen`]); everything else must agree exactly.
+//! [`LightLists`], [`FoundLists`], [`CulledLights`], [`Descent`], [`Seen`]); everything else must agree exactly.
 
 mod assign;
 mod attenuation;
@@ -35,21 +35,21 @@ pub use attenuation::attenuation;
 pub use brdf::{Surface, reflected};
 pub use compact::{Compacted, NOT_VISIBLE, compact};
 pub use cull::{Seen, cull};
-pub use cull_lights::{Blocks, Candidate, CellRange, Culled, cull_lights, mark_blocks};
+pub use cull_lights::{Blocks, Candidate, CellRange, CulledLights, cull_lights, mark_blocks};
 pub use hierarchy::{Descent, Key, Node, Tree, build_nodes, descend, keys, sorted};
 pub use lists::{FoundLists, read_masks, sort_lists};
 pub use mark::{DepthImage, Marks, mark};
 pub use scan::scan;
-pub use scatter::{Group, scatter, scatter_groups};
+pub use scatter::{ClusterGroup, scatter, scatter_groups};
 
 use crate::geometry::Grid;
 
 /// The visible clusters of a grid.
 #[derive(Debug, Clone, Copy)]
 pub struct Visible<'a> {
-    /// The grid.
+    /// The grid whose cells the clusters are.
     pub grid: &'a Grid,
-    /// Linear indices, ascending.
+    /// Linear indices of the visible clusters, ascending.
     pub clusters: &'a [u32],
 }
 

@@ -17,9 +17,9 @@ pub const COUNTING_SLOT: usize = 0;
 
 /// What is counted of one frame.
 pub struct CountedFrame {
-    /// Its record.
+    /// Record of the frame.
     pub counts: FrameCounts,
-    /// Its pixels, a view each, where they were asked for.
+    /// Pixels of the frame, one entry a view, where they were asked for.
     pub pixels: Vec<ViewPixels>,
 }
 

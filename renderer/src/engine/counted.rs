@@ -12,18 +12,18 @@ use ash::vk;
 /// Everything counted of one clustering in one frame.
 pub struct Counted {
     state: ClusteringState,
-    /// What the shaders counted.
+    /// Counters of the clustering, as the shaders counted.
     pub counters: DeviceCounts,
     lights_per_fragment: Vec<u32>,
     visible_clusters: Vec<u32>,
     visible_fragments: Vec<u32>,
-    /// The light lists.
+    /// Light lists of the clustering.
     pub lists: ClusterLists,
 }
 
 impl Counted {
-    /// Reads what the frame that ended in `slot` counted with `lights` lights; `state` is its state, zero for a
-    /// method without clusters.
+    /// Reads what the frame that ended in `slot` counted with `lights` lights; `state` is that of the clustering, zero
+    /// for a method without clusters.
     pub fn read(
         engine: &mut Engine,
         session: &mut Session,

@@ -35,7 +35,7 @@ impl Engine {
     ) -> Result<()> {
         loop {
             self.submit(session, slot, (plan, lights), (&mut *extend.0, &mut *extend.1))?;
-            session.slots[slot].wait()?;
+            session.frame_slots[slot].wait()?;
             if !self.grow_if_needed(session, slot, plan.frame)? {
                 return Ok(());
             }
@@ -75,7 +75,7 @@ impl Engine {
         let mut state = [ClusteringState::default()];
         self.method.has_lists()
             && (0..self.clusterings.len() as u64).any(|clustering| {
-                session.slots[slot].states.read_into(clustering * STATE_BYTES, &mut state);
+                session.frame_slots[slot].states.read_into(clustering * STATE_BYTES, &mut state);
                 state[0].visible_total > visible_clusters || state[0].index_total > light_indices
             })
     }

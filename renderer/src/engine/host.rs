@@ -37,7 +37,7 @@ impl Engine {
 
     /// What each view draws, or in which order.
     fn write_draws(&self, session: &mut Session, slot: usize, plan: &FramePlan) {
-        let this = &mut session.slots[slot];
+        let this = &mut session.frame_slots[slot];
         this.mirrored.clear();
         this.mirrored.extend(plan.views.iter().map(|view| view.pose.mirror.is_some()));
         match self.culling {
@@ -51,10 +51,10 @@ impl Engine {
             }
             Culling::Gpu => {
                 let mut offset = size_of::<DrawCounts>() as u64;
-                for (view, order) in plan.views.iter().zip(&mut this.slot_orders) {
-                    order.update(&session.draw_slots, view);
-                    this.draw_order.write(offset, &order.slots);
-                    offset += size_of_val(order.slots.as_slice()) as u64;
+                for (view, order) in plan.views.iter().zip(&mut this.drawable_orders) {
+                    order.update(&session.drawables, view);
+                    this.draw_order.write(offset, &order.drawables);
+                    offset += size_of_val(order.drawables.as_slice()) as u64;
                 }
             }
         }
@@ -99,7 +99,7 @@ impl Engine {
         for (view, number) in views.iter().zip(clustering.views.clone()) {
             let near = view.relative_to(origin);
             let data = view_data(&near, grid.as_ref(), self.resolution, session.scene.reach);
-            session.slots[slot].views.write((number * size_of_val(&data)) as u64, &[data]);
+            session.frame_slots[slot].views.write((number * size_of_val(&data)) as u64, &[data]);
         }
     }
 }

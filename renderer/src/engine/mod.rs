@@ -10,26 +10,26 @@
 
 mod count;
 mod counted;
+mod frame_slot;
 mod growth;
 mod host;
 mod mode;
 mod plan;
 mod requirements;
 mod session;
-mod slot;
 mod targets;
 
 pub use count::{COUNTING_SLOT, CountedFrame, count_frame};
 pub use counted::Counted;
+pub use frame_slot::FrameSlot;
 pub use growth::nothing;
 pub use mode::{LargestGrid, Mode, variant};
 pub use plan::{FramePlan, plan_frames};
 pub use session::{Session, shader_library};
-pub use slot::Slot;
 
 use crate::assign::{Assigner, Clusters, Marking};
 use crate::buffers::{BufferName, ClusteringSizes};
-use crate::clustering::{Clustering, SLOTS, SharedBuffer, make_buffer};
+use crate::clustering::{Clustering, FRAME_SLOTS, SharedBuffer, make_buffer};
 use crate::config::{Config, Scopes};
 use crate::culling::Culling;
 use crate::gpu_interface::{ClusteringState, LightData};
@@ -62,7 +62,7 @@ pub struct Engine {
     sizes: ClusteringSizes,
     largest: LargestGrid,
     lights: Buffer,
-    staging: [Buffer; SLOTS],
+    staging: [Buffer; FRAME_SLOTS],
     staged: Vec<LightData>,
     /// The revision and origin of the lights on the device.
     lights_there: Option<(u64, DVec3)>,
@@ -72,7 +72,7 @@ pub struct Engine {
     clusterings: Vec<Clustering>,
     /// Whether frames are shaded; true at first.
     pub shaded: bool,
-    /// Its frames' stages.
+    /// Stages of the engine's frames.
     pub tree: ScopeTree,
     /// What was grown, in order.
     pub growth: Vec<GrowthEvent>,
@@ -146,15 +146,15 @@ impl Engine {
 
     fn make_clusterings(&mut self, session: &Session) -> Result<()> {
         self.clusterings.clear();
-        let slots = &session.slots;
+        let slots = &session.frame_slots;
         let shared: [SharedBuffer; 7] = [
             (BufferName::Views, slots.each_ref().map(|slot| &slot.views)),
             (BufferName::DrawOrder, slots.each_ref().map(|slot| &slot.draw_order)),
-            (BufferName::Lights, [&self.lights; SLOTS]),
-            (BufferName::Instances, [&session.scene.instances; SLOTS]),
-            (BufferName::DrawSlots, [&session.scene.draw_slots; SLOTS]),
-            (BufferName::DrawCommands, [&session.draws.commands; SLOTS]),
-            (BufferName::DrawnInstances, [&session.draws.drawn_instances; SLOTS]),
+            (BufferName::Lights, [&self.lights; FRAME_SLOTS]),
+            (BufferName::Instances, [&session.scene.instances; FRAME_SLOTS]),
+            (BufferName::Drawables, [&session.scene.drawables; FRAME_SLOTS]),
+            (BufferName::DrawCommands, [&session.draws.commands; FRAME_SLOTS]),
+            (BufferName::DrawnInstances, [&session.draws.drawn_instances; FRAME_SLOTS]),
         ];
         let (sharing, views) = (self.method.kind().sharing, session.targets.len());
         for number in 0..sharing.clusterings(views) {
@@ -180,14 +180,14 @@ impl Engine {
         extend: (&mut Commands, &mut Commands),
     ) -> Result<()> {
         self.write_host_data(session, slot, plan, lights)?;
-        session.slots[slot].begin()?;
+        session.frame_slots[slot].begin()?;
         let method = self.method;
         self.record(session, slot, |r, frame| {
             (extend.0)(r, frame);
             frame::record(r, frame, &method);
             (extend.1)(r, frame);
         });
-        session.slots[slot].submit()
+        session.frame_slots[slot].submit()
     }
 
     /// Records and submits commands that belong to the frame last rendered in `slot`, and waits for them.
@@ -197,22 +197,22 @@ impl Engine {
         slot: usize,
         commands: impl FnOnce(&mut Recorder, &Frame),
     ) -> Result<()> {
-        session.slots[slot].begin()?;
+        session.frame_slots[slot].begin()?;
         self.record(session, slot, commands);
-        session.slots[slot].submit()?;
-        session.slots[slot].wait()
+        session.frame_slots[slot].submit()?;
+        session.frame_slots[slot].wait()
     }
 
     fn record(&mut self, session: &mut Session, slot: usize, body: impl FnOnce(&mut Recorder, &Frame)) {
-        let this = &mut session.slots[slot];
+        let this = &mut session.frame_slots[slot];
         let frame = Frame {
             pipelines: &self.pipelines,
             scene: &session.scene,
             draws: match self.culling {
                 Culling::Cpu => Draws::Listed(&this.draw_lists),
                 Culling::Gpu => Draws::Indirect {
-                    slots: &session.draw_slots,
-                    orders: &this.slot_orders,
+                    drawables: &session.drawables,
+                    orders: &this.drawable_orders,
                     buffers: &session.draws,
                 },
             },
@@ -246,7 +246,7 @@ impl Engine {
 
     /// What the device found out in the frame that ended in `slot`.
     pub fn states(&self, session: &Session, slot: usize) -> Vec<ClusteringState> {
-        session.slots[slot].states.read(0, self.clusterings.len())
+        session.frame_slots[slot].states.read(0, self.clusterings.len())
     }
 }
 

@@ -13,14 +13,14 @@ use crate::{Error, Result, geometry::Grid};
 /// The largest grid that an engine may meet: what its buffers are made for.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct LargestGrid {
-    /// Clusters.
+    /// Most clusters of a grid.
     pub clusters: u64,
-    /// Depths between slices.
+    /// Most depths between slices of a grid.
     pub slice_planes: u32,
 }
 
 impl LargestGrid {
-    /// Of planned frames.
+    /// The largest grid of planned frames.
     pub fn of(plans: &[FramePlan]) -> Self {
         let largest = |all: Self, grid: &Grid| Self {
             clusters: all.clusters.max(grid.cluster_count()),
@@ -49,7 +49,7 @@ impl LargestGrid {
     }
 }
 
-/// What an engine is made for, besides the configuration of its run.
+/// What an engine is made for beyond the configuration of its run.
 #[derive(Debug, Clone, Copy)]
 pub struct Mode {
     /// Most lights of all frames.
@@ -78,7 +78,7 @@ pub(super) struct Chosen {
 }
 
 impl Chosen {
-    /// Of a run's configuration, which has one value on every axis.
+    /// What an engine needs of a run's configuration, which has one value on every axis.
     pub fn of(run: &Config, mode: &Mode) -> Self {
         let method = run.methods[0];
         // A method without lists assigns nothing.
@@ -86,7 +86,7 @@ impl Chosen {
         Self { method, assigner, clusters: run.clusters[0], test: run.test[0].of(&method) }
     }
 
-    /// What its shaders are specialised for.
+    /// What the shaders of the engine are specialised for.
     pub fn variant(&self, run: &Config, mode: &Mode) -> Variant {
         let kind = self.method.kind();
         Variant {

@@ -13,7 +13,7 @@ use glam::DVec3;
 pub struct FramePlan {
     /// Frame number in the recording.
     pub frame: u32,
-    /// Rendering cameras.
+    /// Rendering cameras of the frame.
     pub views: Vec<View>,
     /// Grids: one a view for Indi, one for Encl, none for a method without clusters.
     pub grids: Vec<Grid>,

@@ -1,13 +1,13 @@
 //! What all runs of a replay share: device, scene, render targets, frames in flight.
 
-use super::Slot;
+use super::FrameSlot;
 use super::requirements::check_device;
 use super::targets::make_targets;
 use crate::buffers::BufferName;
-use crate::clustering::{SLOTS, make_buffer};
+use crate::clustering::{FRAME_SLOTS, make_buffer};
 use crate::config::Config;
 use crate::draw_list::Batches;
-use crate::draw_slots::DrawSlots;
+use crate::drawables::Drawables;
 use crate::geometry::views::ViewSet;
 use crate::gpu_interface::{DrawCommand, DrawCounts, MAX_VIEWS};
 use crate::gpu_scene::GpuScene;
@@ -24,18 +24,18 @@ use std::sync::Arc;
 
 /// Device, scene, targets and frames in flight of a replay.
 pub struct Session {
-    /// Frames in flight; before everything they use, so that they end first.
-    pub slots: [Slot; SLOTS],
+    /// Room for the frames in flight; before everything that these use, so that they end first.
+    pub frame_slots: [FrameSlot; FRAME_SLOTS],
     /// What each view is rendered into.
     pub targets: Vec<ViewTargets>,
     _depth_sets: DescriptorSets,
     /// The scene on the device.
     pub scene: GpuScene,
-    /// Its instances in drawing order.
+    /// Instances of the scene in drawing order.
     pub batches: Batches,
-    /// What is drawn of them where the device culls.
-    pub draw_slots: DrawSlots,
-    /// What stage `cull` fills.
+    /// Everything that is drawn of the scene where the device culls.
+    pub drawables: Drawables,
+    /// Buffers that stage `cull` fills.
     pub draws: DrawBuffers,
     /// Pipelines made so far.
     pub store: PipelineStore,
@@ -43,7 +43,7 @@ pub struct Session {
     pub tracker: FrameTracker,
     /// What tells the machine's state.
     pub probe: Probe,
-    /// The device.
+    /// The Vulkan device that the session runs on.
     pub context: Arc<Context>,
 }
 
@@ -59,20 +59,20 @@ impl Session {
         let layouts = Arc::new(Layouts::new(&context)?);
         let shaders = shader_library(config)?;
         let batches = Batches::new(scene);
-        let draw_slots = DrawSlots::new(&batches);
-        let gpu_scene = GpuScene::new(&context, &layouts, scene, (&batches, &draw_slots))?;
+        let drawables = Drawables::new(&batches);
+        let gpu_scene = GpuScene::new(&context, &layouts, scene, (&batches, &drawables))?;
         let depth_sets = DescriptorSets::new(&context, "depth", layouts.depth, &DEPTH_SET, views)?;
         Ok(Self {
-            slots: [
-                Slot::new(&context, views, draw_slots.counts)?,
-                Slot::new(&context, views, draw_slots.counts)?,
+            frame_slots: [
+                FrameSlot::new(&context, views, drawables.counts)?,
+                FrameSlot::new(&context, views, drawables.counts)?,
             ],
             targets: make_targets(&context, config, &depth_sets.sets)?,
             _depth_sets: depth_sets,
             scene: gpu_scene,
             batches,
-            draws: draw_buffers(&context, views, draw_slots.counts)?,
-            draw_slots,
+            draws: draw_buffers(&context, views, drawables.counts)?,
+            drawables,
             store: PipelineStore::new(&context, &layouts, shaders, (view_set, drawn_sets(scene))),
             tracker: FrameTracker::default(),
             probe: Probe::new(&context.info.hardware),

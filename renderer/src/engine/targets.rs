@@ -2,7 +2,7 @@
 
 use crate::Result;
 use crate::config::Config;
-use crate::passes::{ColorTarget, Layer, ViewTargets};
+use crate::passes::{ColorTarget, ImageLayer, ViewTargets};
 use crate::targets::{DEPTH_FORMAT, TargetName};
 use crate::vk::{Context, Image, ImageDesc};
 use ash::vk;
@@ -46,11 +46,11 @@ impl Images<'_> {
         let colors = TargetName::ALL.map(|name| self.color(name));
         let colors = colors.into_iter().collect::<Result<Vec<_>>>()?;
         let target = |(index, &depth_set): (usize, &vk::DescriptorSet)| {
-            let depth = Layer::new(&depth, index);
+            let depth = ImageLayer::new(&depth, index);
             write_depth_set(self.context, depth_set, depth.view);
             let color = |(drawn, resolved): &(Arc<Image>, Option<Arc<Image>>)| ColorTarget {
-                drawn: Layer::new(drawn, index),
-                resolved: resolved.as_ref().map(|image| Layer::new(image, index)),
+                drawn: ImageLayer::new(drawn, index),
+                resolved: resolved.as_ref().map(|image| ImageLayer::new(image, index)),
             };
             ViewTargets { depth, depth_set, colors: colors.iter().map(color).collect() }
         };

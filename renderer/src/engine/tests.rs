@@ -307,7 +307,7 @@ fn staged_times(bench: &mut Bench, compute: u32, raster: u32) -> [f64; 2] {
         });
         let paths: Vec<String> = bench.engine.tree.paths().map(str::to_owned).collect();
         let times: Vec<f64> =
-            bench.session.slots[0].timestamps.read().unwrap().map(|(gpu_ms, _)| gpu_ms).collect();
+            bench.session.frame_slots[0].timestamps.read().unwrap().map(|(gpu_ms, _)| gpu_ms).collect();
         for (stage, best) in ["frame/compute", "frame/raster"].iter().zip(&mut best) {
             let position = paths.iter().position(|path| path == stage).unwrap();
             *best = best.min(times[position]);

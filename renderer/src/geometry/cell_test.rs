@@ -4,13 +4,13 @@
 //! the answer was, so that a comparison with f32 results can leave borderline pairs out.
 
 use super::piece::FrustumPiece;
-use super::{Candidates, ClusterSpace, Frustum, Grid, LightVolume, SphereTest, VolumeKind};
+use super::{ClusterSpace, Frustum, Grid, LightVolume, Separators, SphereTest, VolumeKind};
 use glam::DVec3;
 
 /// A plane by its unit normal, which points inwards, and its offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
-    /// Unit, inwards.
+    /// Unit normal of the plane, inwards.
     pub normal: DVec3,
     /// Signed distance of the origin, metres.
     pub offset: f64,
@@ -85,7 +85,7 @@ impl CellTest {
 
     fn sphere_margin(&self, center: DVec3, radius: f64) -> f64 {
         match (self.test, &self.piece) {
-            (SphereTest::Separating(candidates), _) => self.unseparated(candidates, center, radius),
+            (SphereTest::Separating(separators), _) => self.unseparated(separators, center, radius),
             (SphereTest::Exact, Some(piece)) => radius - piece.distance(center),
             (SphereTest::Exact, None) | (SphereTest::Box, _) => {
                 let low = self.corners.into_iter().reduce(DVec3::min).unwrap_or(center);
@@ -96,25 +96,25 @@ impl CellTest {
     }
 
     /// Least margin of all that might separate.
-    fn unseparated(&self, candidates: Candidates, center: DVec3, radius: f64) -> f64 {
+    fn unseparated(&self, separators: Separators, center: DVec3, radius: f64) -> f64 {
         let mut least = f64::INFINITY;
-        if candidates.contain(Candidates::HALF_SPACES) {
+        if separators.contain(Separators::HALF_SPACES) {
             let inside = self.planes.iter().map(|plane| plane.distance(center) + radius);
             least = inside.fold(least, f64::min);
         }
-        if candidates.contain(Candidates::NORMALS) {
+        if separators.contain(Separators::NORMALS) {
             let normals = self.planes.iter().map(|plane| radius - self.gap(plane.normal, center));
             least = normals.fold(least, f64::min);
         }
-        if candidates.contain(Candidates::EDGES) {
+        if separators.contain(Separators::EDGES) {
             let edges = EDGES.iter().map(|&[from, to]| (self.corners[to] - self.corners[from]).normalize());
             least = edges.map(|edge| radius - self.gap(edge, center)).fold(least, f64::min);
         }
-        if candidates.contain(Candidates::VERTICES) {
+        if separators.contain(Separators::VERTICES) {
             let vertices = self.corners.iter().map(|&corner| self.vertex_margin(corner, center, radius));
             least = vertices.fold(least, f64::min);
         }
-        if candidates.contain(Candidates::NEAREST_VERTEX) {
+        if separators.contain(Separators::NEAREST_VERTEX) {
             least = least.min(self.nearest_vertex_margin(center, radius));
         }
         least

@@ -11,7 +11,7 @@ const WIDEST_DEGREES: f64 = 170.0;
 /// The frustum that encloses some views.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Enclosing {
-    /// Where its apex lies on the head's Z axis, metres; positive is behind the head.
+    /// Position of the apex on the head's Z axis, metres; positive is behind the head.
     pub apex: f64,
     /// The frustum as seen from the apex, turned like the head.
     pub frustum: Frustum,

@@ -9,17 +9,17 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 /// and p.z within z0..z1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frustum {
-    /// Left tangent.
+    /// Tangent of the left side.
     pub x0: f64,
-    /// Right tangent.
+    /// Tangent of the right side.
     pub x1: f64,
-    /// Bottom tangent.
+    /// Tangent of the bottom side.
     pub y0: f64,
-    /// Top tangent.
+    /// Tangent of the top side.
     pub y1: f64,
-    /// -far, metres, below z1.
+    /// Z of the far plane: -far, metres, below z1.
     pub z0: f64,
-    /// -near, metres, below 0.
+    /// Z of the near plane: -near, metres, below 0.
     pub z1: f64,
 }
 

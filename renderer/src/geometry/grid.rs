@@ -10,9 +10,9 @@ const RIM: f64 = 1e-9;
 /// What the cells of a grid look like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CellShape {
-    /// Pieces of a frustum.
+    /// Cells are pieces of a frustum.
     Frustum,
-    /// Boxes along the axes.
+    /// Cells are boxes along the axes.
     Box,
 }
 
@@ -28,9 +28,9 @@ pub enum ClusterSpace {
     },
     /// Clusters divide an axis-aligned box evenly.
     Orthographic {
-        /// Lowest corner, metres.
+        /// Lowest corner of the grid, metres.
         min: DVec3,
-        /// Highest corner, metres.
+        /// Highest corner of the grid, metres.
         max: DVec3,
     },
 }
@@ -41,7 +41,7 @@ pub enum ClusterSpace {
 /// towards the camera, in orthographic ones.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
-    /// World from clustering space.
+    /// Pose that takes clustering to world space.
     pub pose: Pose,
     /// Shape in clustering space.
     pub space: ClusterSpace,
@@ -55,12 +55,12 @@ pub fn cell_at(linear: u32, [dx, dy, _]: [u32; 3]) -> [u32; 3] {
 }
 
 impl Grid {
-    /// The same grid in a world whose origin lies at `origin` (metres) of this one.
+    /// This grid in a world whose origin lies at `origin` (metres) of the world it is in.
     pub fn relative_to(&self, origin: DVec3) -> Self {
         Self { pose: self.pose.relative_to(origin), ..*self }
     }
 
-    /// Dx*Dy*Dz.
+    /// Number of clusters: Dx*Dy*Dz.
     pub fn cluster_count(&self) -> u64 {
         self.dimensions.into_iter().map(u64::from).product()
     }
@@ -165,7 +165,7 @@ impl Grid {
     /// for orthographic grids.
     ///
     /// Slice k holds what is not nearer than plane k and nearer than plane k + 1, compared in f32 on the device. They
-    /// ascend strictly, see [`crate::methods::grid::plan()`].
+    /// ascend strictly, see [`crate::methods::Method::plan`].
     pub fn slice_planes(&self, planes: &mut Vec<f32>) {
         planes.clear();
         if let ClusterSpace::Perspective { frustum, ratio } = self.space {

@@ -29,5 +29,5 @@ pub use enclosing::{Enclosing, enclosing};
 pub use frustum::Frustum;
 pub use grid::{CellShape, ClusterSpace, Grid, cell_at};
 pub use sharing::Sharing;
-pub use sphere_test::{Candidates, SphereTest};
+pub use sphere_test::{Separators, SphereTest};
 pub use volume::{LightVolume, VolumeKind};

@@ -12,7 +12,7 @@ pub(super) struct FrustumPiece {
 }
 
 impl FrustumPiece {
-    /// From its corners, in the order of [`super::Grid::cell_corners`].
+    /// The piece with these corners, in the order of [`super::Grid::cell_corners`].
     pub fn new(corners: &[DVec3; 8]) -> Self {
         let tangents = |corner: DVec3| corner.truncate() / -corner.z;
         Self {

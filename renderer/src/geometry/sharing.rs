@@ -5,14 +5,14 @@ use std::ops::Range;
 /// How views share clusterings (Gelderen chapter 4).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Sharing {
-    /// One clustering per view.
+    /// Individual: one clustering for each view.
     Indi,
-    /// One enclosing clustering for all views.
+    /// Enclosing: one clustering for all views.
     Encl,
 }
 
 impl Sharing {
-    /// How many clusterings serve so many views.
+    /// How many clusterings serve `views` views.
     pub fn clusterings(self, views: usize) -> usize {
         match self {
             Self::Indi => views,
@@ -28,7 +28,7 @@ impl Sharing {
         }
     }
 
-    /// Of so many views, those that look lights up in a clustering.
+    /// The views that look lights up in a clustering, of `views` views.
     pub fn views_of(self, clustering: usize, views: usize) -> Range<usize> {
         match self {
             Self::Indi => clustering..clustering + 1,

@@ -6,23 +6,23 @@ use std::str::FromStr;
 
 /// Which test decides whether a sphere meets a cluster.
 ///
-/// Its name is its identity everywhere: `exact`, `box`, or candidates of separation, such as `hs`, `sat-epv`,
+/// Its name is its identity everywhere: `exact`, `box`, or what may separate the two, such as `hs`, `sat-epv`,
 /// `hs+sat-n` (Enhuber sections 2.6 and 3.5.2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SphereTest {
-    /// The nearest point of the cluster lies in the sphere.
+    /// They meet where the nearest point of the cluster lies in the sphere.
     Exact,
-    /// The nearest point of the cluster's axis-aligned bounds: exact for orthographic grids, conservative otherwise.
+    /// They meet where the nearest point of the cluster's axis-aligned bounds lies in the sphere: exact for orthographic grids, conservative otherwise.
     Box,
-    /// They meet unless a candidate separates them: conservative.
-    Separating(Candidates),
+    /// They meet unless something separates them: conservative.
+    Separating(Separators),
 }
 
 /// A set of what may separate a sphere from a cluster; not empty.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Candidates(u8);
+pub struct Separators(u8);
 
-impl Candidates {
+impl Separators {
     /// HS: a plane of the cluster, moved out by the radius (Gelderen section 3.3).
     pub const HALF_SPACES: Self = Self(1);
     /// SAT-E: axes along the cluster's edges.
@@ -38,12 +38,12 @@ impl Candidates {
     const AXES: [(char, Self); 4] =
         [('e', Self::EDGES), ('n', Self::NEAREST_VERTEX), ('p', Self::NORMALS), ('v', Self::VERTICES)];
 
-    /// Whether all of `others` are among these.
+    /// Whether all of `others` are in the set.
     pub fn contain(self, others: Self) -> bool {
         self.0 & others.0 == others.0
     }
 
-    /// These and `others`.
+    /// The set of these separators and `others`.
     pub fn and(self, others: Self) -> Self {
         Self(self.0 | others.0)
     }
@@ -51,7 +51,7 @@ impl Candidates {
 
 impl SphereTest {
     /// HS alone: the test of the thesis for perspective clusters.
-    pub const HALF_SPACES: Self = Self::Separating(Candidates::HALF_SPACES);
+    pub const HALF_SPACES: Self = Self::Separating(Separators::HALF_SPACES);
 
     /// Names to suggest; the axes of `sat` combine freely.
     const KNOWN: [&str; 7] = ["exact", "box", "hs", "hs+sat-n", "hs+sat-epv", "sat-epv", "auto"];
@@ -62,32 +62,32 @@ impl SphereTest {
         match self {
             Self::Exact | Self::Box => true,
             Self::Separating(asked) => {
-                asked.contain(Candidates::HALF_SPACES)
-                    || asked.contain(Candidates::NORMALS)
-                    || boxes && asked.contain(Candidates::EDGES)
+                asked.contain(Separators::HALF_SPACES)
+                    || asked.contain(Separators::NORMALS)
+                    || boxes && asked.contain(Separators::EDGES)
             }
         }
     }
 
-    /// Whether `candidates` are asked.
-    pub fn asks(self, candidates: Candidates) -> bool {
-        matches!(self, Self::Separating(asked) if asked.contain(candidates))
+    /// Whether the test asks all of `separators`.
+    pub fn asks(self, separators: Separators) -> bool {
+        matches!(self, Self::Separating(asked) if asked.contain(separators))
     }
 }
 
 impl fmt::Display for SphereTest {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let candidates = match self {
+        let separators = match self {
             Self::Exact => return f.write_str("exact"),
             Self::Box => return f.write_str("box"),
-            Self::Separating(candidates) => candidates,
+            Self::Separating(separators) => separators,
         };
-        let axes: String = Candidates::AXES
+        let axes: String = Separators::AXES
             .iter()
-            .filter(|(_, axis)| candidates.contain(*axis))
+            .filter(|(_, axis)| separators.contain(*axis))
             .map(|(letter, _)| letter)
             .collect();
-        let half_spaces = candidates.contain(Candidates::HALF_SPACES).then(|| "hs".to_owned());
+        let half_spaces = separators.contain(Separators::HALF_SPACES).then(|| "hs".to_owned());
         let sat = (!axes.is_empty()).then(|| format!("sat-{axes}"));
         f.write_str(&half_spaces.into_iter().chain(sat).collect::<Vec<_>>().join("+"))
     }
@@ -110,16 +110,16 @@ impl FromStr for SphereTest {
     }
 }
 
-fn separating(text: &str) -> Option<Candidates> {
+fn separating(text: &str) -> Option<Separators> {
     let sat = match text.strip_prefix("hs") {
-        Some("") => return Some(Candidates::HALF_SPACES),
+        Some("") => return Some(Separators::HALF_SPACES),
         Some(rest) => rest.strip_prefix('+')?,
         None => text,
     };
     let letters = sat.strip_prefix("sat-").filter(|letters| !letters.is_empty())?;
-    let mut found = Candidates(if sat == text { 0 } else { Candidates::HALF_SPACES.0 });
+    let mut found = Separators(if sat == text { 0 } else { Separators::HALF_SPACES.0 });
     for letter in letters.chars() {
-        let (_, axis) = Candidates::AXES.into_iter().find(|(name, _)| *name == letter)?;
+        let (_, axis) = Separators::AXES.into_iter().find(|(name, _)| *name == letter)?;
         if found.contain(axis) {
             return None;
         }
@@ -141,8 +141,8 @@ mod tests {
         }
         assert_eq!("hs+sat-vep".parse::<SphereTest>().unwrap().to_string(), "hs+sat-epv");
         let test: SphereTest = "hs+sat-n".parse().unwrap();
-        assert!(test.asks(Candidates::HALF_SPACES) && test.asks(Candidates::NEAREST_VERTEX));
-        assert!(!test.asks(Candidates::EDGES) && !SphereTest::Exact.asks(Candidates::HALF_SPACES));
+        assert!(test.asks(Separators::HALF_SPACES) && test.asks(Separators::NEAREST_VERTEX));
+        assert!(!test.asks(Separators::EDGES) && !SphereTest::Exact.asks(Separators::HALF_SPACES));
     }
 
     #[test]

@@ -17,14 +17,14 @@ use std::ops::Mul;
 pub struct Pose {
     /// World position, metres; of the camera itself, not of its mirror image.
     pub position: DVec3,
-    /// World-from-local rotation, unit; likewise.
+    /// World-from-local rotation, unit; of the camera itself, not of its mirror image.
     pub rotation: DQuat,
     /// What the world is reflected at.
     pub mirror: Option<Mirror>,
 }
 
 impl Pose {
-    /// At the origin, looking down -Z.
+    /// The pose at the origin, looking down -Z.
     pub const IDENTITY: Self = Self::from_position(DVec3::ZERO);
 
     /// Moved by `position` (metres), not turned.
@@ -32,13 +32,13 @@ impl Pose {
         Self { position, rotation: DQuat::IDENTITY, mirror: None }
     }
 
-    /// World from local.
+    /// Matrix that takes local to world space.
     pub fn to_matrix(&self) -> DMat4 {
         let rigid = DMat4::from_rotation_translation(self.rotation, self.position);
         self.mirror.map_or(rigid, |mirror| mirror.to_matrix() * rigid)
     }
 
-    /// Local from world.
+    /// The pose that takes world to local space.
     pub fn inverse(&self) -> Self {
         let rotation = self.rotation.conjugate();
         let rigid = Self { position: -(rotation * self.position), rotation, mirror: None };
@@ -57,7 +57,7 @@ impl Pose {
         self.mirror.map_or(vector, |mirror| mirror.reflect_vector(vector))
     }
 
-    /// The same pose in a world whose origin lies at `origin` (metres) of this one.
+    /// This pose in a world whose origin lies at `origin` (metres) of the world it is in.
     pub fn relative_to(&self, origin: DVec3) -> Self {
         let moved = Self::from_position(-origin);
         Self {
@@ -112,22 +112,22 @@ impl Mul for Pose {
 pub struct View {
     /// World from view. With a mirror, what lies behind that is not seen.
     pub pose: Pose,
-    /// View-space frustum.
+    /// Frustum of the view in view space.
     pub frustum: Frustum,
 }
 
 impl View {
-    /// Where it sees from: its own place, or where a mirror shows that; world space, metres.
+    /// Place that the view sees from: its own, or where a mirror shows that; world space, metres.
     pub fn eye(&self) -> DVec3 {
         self.pose.transform_point(DVec3::ZERO)
     }
 
-    /// World from view.
+    /// Matrix that takes view to world space.
     pub fn world_from_view(&self) -> DMat4 {
         self.pose.to_matrix()
     }
 
-    /// View from world.
+    /// Matrix that takes world to view space.
     pub fn view_from_world(&self) -> DMat4 {
         self.pose.inverse().to_matrix()
     }
@@ -143,12 +143,12 @@ impl View {
         self.frustum.clip_from_view()
     }
 
-    /// Clip from world.
+    /// Matrix that takes world to clip space, with reversed depth.
     pub fn clip_from_world(&self) -> DMat4 {
         self.clip_from_view() * self.view_from_world()
     }
 
-    /// The same view in a world whose origin lies at `origin` (metres) of this one.
+    /// This view in a world whose origin lies at `origin` (metres) of the world it is in.
     pub fn relative_to(&self, origin: DVec3) -> Self {
         Self { pose: self.pose.relative_to(origin), frustum: self.frustum }
     }
@@ -166,7 +166,7 @@ impl View {
 /// What is known of a recording's views before any frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ViewSet {
-    /// How many there are.
+    /// How many views there are.
     pub count: usize,
     /// Whether some see the world in a mirror.
     pub mirrors: bool,

@@ -25,11 +25,11 @@ impl VolumeKind {
 /// What a light reaches: a shape within a bounding sphere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LightVolume {
-    /// The shape.
+    /// Shape of the volume.
     pub kind: VolumeKind,
-    /// Of the bounding sphere, clustering space, metres.
+    /// Centre of the bounding sphere, clustering space, metres.
     pub centre: DVec3,
-    /// Of the bounding sphere, metres.
+    /// Radius of the bounding sphere, metres.
     pub radius: f64,
 }
 

@@ -9,17 +9,17 @@ gpu_struct! {
         pub clip_from_world: [[f32; 4]; 4],
         /// Rigid, but for a view in a mirror.
         pub world_from_view: [[f32; 4]; 4],
-        /// Likewise; into the space of the clustering that this view looks up.
+        /// Into the space of the clustering that this view looks up; rigid, but for a view in a mirror.
         pub clustering_from_view: [[f32; 4]; 4],
-        /// Left and bottom tangent.
+        /// Left and bottom tangent of the frustum.
         pub tangent_min: [f32; 2],
         /// Right minus left, top minus bottom tangent.
         pub tangent_extent: [f32; 2],
-        /// Width and height, pixels.
+        /// Width and height of the view, pixels.
         pub resolution: [u32; 2],
-        /// Metres, positive.
+        /// Distance of the near plane, metres, positive.
         pub near: f32,
-        /// Metres, positive.
+        /// Distance of the far plane, metres, positive.
         pub far: f32,
         /// Inward unit normal and offset of each side, world space, moved out by what rounding may cost.
         pub planes: [[f32; 4]; 6],
@@ -35,19 +35,20 @@ gpu_struct! {
     pub struct GridData {
         /// Rigid, but for the clustering of a view in a mirror.
         pub clustering_from_world: [[f32; 4]; 4],
-        /// Dx, Dy, Dz.
+        /// Number of cells along each axis: Dx, Dy, Dz.
         pub dimensions: [u32; 3],
         /// Words of the visibility bits: ceil(Dx*Dy*Dz / 32).
         pub word_count: u32,
-        /// Perspective: left tangent, bottom tangent, near distance. Orthographic: lowest corner, metres.
+        /// Where the first cell begins. Perspective: left tangent, bottom tangent, near distance. Orthographic: lowest
+        /// corner, metres.
         pub origin: [f32; 3],
         /// Cells per tangent and per log2 of depth; or cells per metre.
         pub scale: [f32; 3],
-        /// Inverse of `scale`.
+        /// Size of a cell along each axis: the inverse of `scale`.
         pub cell: [f32; 3],
-        /// Added to every light's radius, metres: covers rounding at cell boundaries.
+        /// What is added to every light's radius, metres: covers rounding at cell boundaries.
         pub slack: f32,
-        /// Added instead where it comes to more, per metre of the radius.
+        /// What is added instead of `slack` where it comes to more, per metre of the radius.
         pub slack_per_radius: f32,
         /// Lights in this frame.
         pub light_count: u32,
@@ -57,7 +58,7 @@ gpu_struct! {
         pub index_capacity: u32,
         /// Words of light bits that fit, of all lists together.
         pub mask_capacity: u32,
-        /// Lights of groups that fit, a multiple of a tile's.
+        /// Lights of groups that fit, in whole packets.
         pub group_capacity: u32,
         /// Blocks a cluster, along each axis.
         pub block_scale: [f32; 3],
@@ -67,7 +68,7 @@ gpu_struct! {
         pub tree_depth: u32,
         /// Lowest corner of the grid's bounds in clustering space, metres.
         pub bounds_low: [f32; 3],
-        /// 1024 over the extent of those bounds, per metre.
+        /// 1024 over the extent of the grid's bounds along each axis, per metre.
         pub bounds_scale: [f32; 3],
     }
 }
@@ -75,11 +76,11 @@ gpu_struct! {
 gpu_struct! {
     /// A node of the light hierarchy: the centres of its lights lie in the box.
     pub struct LightNode in texels {
-        /// Clustering space, metres.
+        /// Centre of the box, clustering space, metres.
         pub centre: [f32; 3],
-        /// Largest radius, metres.
+        /// Largest radius of the node's lights, metres.
         pub radius: f32,
-        /// Metres.
+        /// Half the size of the box, metres.
         pub half_extent: [f32; 3],
     }
 }
@@ -89,9 +90,9 @@ gpu_struct! {
     /// of a cone) goes behind `kind`: three words of the second texel are free, and a texel that a shader does not use
     /// is not fetched.
     pub struct LightVolume in texels {
-        /// Of the bounding sphere, metres.
+        /// Centre of the bounding sphere, metres.
         pub centre: [f32; 3],
-        /// Of the bounding sphere, metres, slack included.
+        /// Radius of the bounding sphere, metres, slack included.
         pub radius: f32,
         /// A [`VolumeKind`](crate::geometry::VolumeKind) as a number.
         pub kind: u32,
@@ -101,19 +102,19 @@ gpu_struct! {
 gpu_struct! {
     /// A light in world space.
     pub struct LightData in texels {
-        /// Metres.
+        /// Place of the light, metres.
         pub position: [f32; 3],
-        /// Influence radius, metres.
+        /// Influence radius R1, metres.
         pub r1: f32,
-        /// Linear colour.
+        /// Linear colour of the light.
         pub tint: [f32; 3],
-        /// Intensity I.
+        /// Intensity I of the light.
         pub intensity: f32,
-        /// Cut-off I0.
+        /// Cut-off I0 of the light.
         pub cutoff: f32,
-        /// Near radius, metres.
+        /// Near radius R0, metres.
         pub r0: f32,
-        /// Of the volume that it reaches: a [`VolumeKind`](crate::geometry::VolumeKind) as a number.
+        /// Kind of the volume that the light reaches: a [`VolumeKind`](crate::geometry::VolumeKind) as a number.
         pub kind: u32,
     }
 }
@@ -121,22 +122,22 @@ gpu_struct! {
 gpu_struct! {
     /// A metallic-roughness material.
     pub struct MaterialData {
-        /// Linear colour and alpha.
+        /// Linear base colour and alpha.
         pub base_color: [f32; 4],
-        /// Linear radiance.
+        /// Linear radiance that the surface emits.
         pub emissive: [f32; 3],
-        /// 0 to 1.
+        /// How metallic the surface is, 0 to 1.
         pub metallic: f32,
-        /// Perceptual, 0 to 1.
+        /// Perceptual roughness, 0 to 1.
         pub roughness: f32,
         /// Scale of the normal map's x and y.
         pub normal_scale: f32,
-        /// 0 to 1.
+        /// How much the occlusion map darkens, 0 to 1.
         pub occlusion_strength: f32,
         /// Below this a masked fragment is discarded.
         pub alpha_cutoff: f32,
         /// Bit s: texture s reads the second uv set.
-        pub uv_slots: u32,
+        pub uv_sets: u32,
         /// 1 where base colour is radiance and no light is evaluated, else 0.
         pub unlit: u32,
         /// Two rows of an affine map per texture.
@@ -147,11 +148,11 @@ gpu_struct! {
 gpu_struct! {
     /// A primitive's place in the world.
     pub struct InstanceData in texels {
-        /// Affine.
+        /// Affine matrix from object to world space.
         pub world_from_object: [[f32; 4]; 4],
         /// Middle of the box around it, world space, metres.
         pub box_center: [f32; 3],
-        /// Half the size of that box, metres.
+        /// Half the size of the box around the primitive, metres.
         pub box_half_extent: [f32; 3],
     }
 }
@@ -159,15 +160,15 @@ gpu_struct! {
 gpu_struct! {
     /// An indirect draw, as the device takes it (VkDrawIndexedIndirectCommand).
     pub struct DrawCommand {
-        /// Indices of the primitive.
+        /// Number of the primitive's indices.
         pub index_count: u32,
-        /// Instances drawn.
+        /// Number of instances drawn.
         pub instance_count: u32,
-        /// Into the indices.
+        /// First of the primitive's indices.
         pub first_index: u32,
-        /// Added to every index.
+        /// What is added to every index to find its vertex.
         pub vertex_offset: i32,
-        /// Of a slot: into the instances. Of a command: into the drawn instances, times the views drawn at once.
+        /// A drawable's first of the instances; a command's first of the drawn instances, times the views drawn at once.
         pub first_instance: u32,
     }
 }
@@ -175,11 +176,11 @@ gpu_struct! {
 gpu_struct! {
     /// How much a scene draws where the device culls.
     pub struct DrawCounts {
-        /// Slots of opaque and masked geometry.
+        /// Drawables of opaque and masked geometry.
         pub surfaces: u32,
-        /// Slots of transparent geometry, behind those.
+        /// Drawables of transparent geometry, behind those of opaque and masked geometry.
         pub transparents: u32,
-        /// Instances of all slots.
+        /// Instances of all drawables.
         pub instances: u32,
     }
 }
@@ -187,20 +188,20 @@ gpu_struct! {
 gpu_struct! {
     /// What the device found out about one clustering in one frame.
     pub struct ClusteringState {
-        /// Visible clusters there are.
+        /// Number of visible clusters there are.
         pub visible_total: u32,
-        /// Visible clusters that fitted.
+        /// Number of visible clusters that fitted.
         pub visible: u32,
-        /// Light indices there are.
+        /// Number of light indices there are.
         pub index_total: u32,
         /// Lights that lists are made of: all, or those that may meet a visible cluster.
         pub candidates: u32,
         /// Words of light bits a list.
         pub mask_words: u32,
-        /// Whether those of all lists fit; 0 where lights are counted and sorted instead.
+        /// Whether the light bits of all lists fit; 0 where lights are counted and sorted instead.
         pub masked: u32,
-        /// Tiles that scatter tests.
-        pub tiles: u32,
+        /// Packets of lights that scatter tests against a group of clusters each.
+        pub packets: u32,
         /// Whether the lights of groups are listed; 0 where that did not fit, and each group gets all candidates.
         pub listed: u32,
     }
@@ -213,17 +214,17 @@ gpu_struct! {
         pub cells: [u32; 3],
         /// Candidates whose cells meet those.
         pub lights: u32,
-        /// How many of them are listed yet.
+        /// How many of the group's candidates are listed yet.
         pub listed: u32,
-        /// Its first tile.
-        pub first_tile: u32,
+        /// Index of the first packet of lights of the group.
+        pub first_packet: u32,
     }
 }
 
 gpu_struct! {
     /// A light that may meet a visible cluster.
     pub struct Candidate in texels {
-        /// Which.
+        /// Index of the light in the frame.
         pub light: u32,
         /// Lowest and highest cell that it may meet, an axis each in two halves.
         pub cells: [u32; 3],
@@ -233,12 +234,26 @@ gpu_struct! {
 gpu_struct! {
     /// Arguments of an indirect dispatch.
     pub struct DispatchSize {
-        /// Workgroups.
+        /// Workgroups along x.
         pub x: u32,
-        /// Workgroups.
+        /// Workgroups along y.
         pub y: u32,
-        /// Workgroups.
+        /// Workgroups along z.
         pub z: u32,
+    }
+}
+
+gpu_struct! {
+    /// What shaders are told by push constants.
+    pub struct Push {
+        /// Number of the view, the first where several are drawn at once.
+        pub view: u32,
+        /// How many views are drawn at once, which culling asks.
+        pub view_count: u32,
+        /// 1 where views drawn at once are drawn for those of them in mirrors, 0 for the others.
+        pub mirrored: u32,
+        /// Number of the step, for pipelines that run several times in a stage.
+        pub step: u32,
     }
 }
 
@@ -247,9 +262,9 @@ gpu_struct! {
     pub struct PixelData {
         /// Along the view's -Z, metres; infinity where nothing was hit.
         pub distance: f32,
-        /// Length of the list of its cluster.
+        /// Length of the list of the cluster of the pixel.
         pub light_count: u32,
-        /// Fragments in its cluster.
+        /// Fragments in the cluster of the pixel.
         pub fragment_count: u32,
         /// Linear cluster index; all ones where nothing was hit.
         pub cluster_index: u32,

@@ -3,23 +3,24 @@
 use super::{Layouts, Uses, failed, set_layout};
 use crate::Result;
 use crate::buffers::{BUFFER_COUNT, BufferSet};
+use crate::gpu_interface::Push;
 use crate::targets::TargetName;
 use crate::vk::{self as gpu, Context, c_string};
 use ash::vk;
 use std::ffi::CString;
 use std::sync::Arc;
 
-/// View and step.
-const PUSH_BYTES: u32 = 8;
+/// Size of what shaders are told by push constants.
+const PUSH_BYTES: u32 = size_of::<Push>() as u32;
 
 /// The layout of one pipeline: of the buffers, only those that its shaders use.
 pub struct PipelineLayout {
     context: Arc<Context>,
-    /// For making and binding the pipeline.
+    /// Vulkan handle, for making and binding the pipeline.
     pub handle: vk::PipelineLayout,
-    /// That of its set of buffers.
+    /// Layout of the pipeline's set of buffers.
     pub buffers: vk::DescriptorSetLayout,
-    /// What its shaders use.
+    /// What the pipeline's shaders use.
     pub uses: Uses,
 }
 
@@ -65,17 +66,17 @@ impl Drop for PipelineLayout {
 
 /// A pipeline that passes bind by what it is given to work on.
 pub struct Pipeline {
-    /// For binding.
+    /// Vulkan handle, for binding.
     pub handle: vk::Pipeline,
-    /// What it is bound with.
+    /// Layout that the pipeline is bound with.
     pub layout: PipelineLayout,
-    /// The shader that names it.
+    /// Path of the shader that names the pipeline.
     pub name: String,
     /// What tools for captures show.
     pub label: CString,
     /// The colour targets that it draws into, in the order of its fragment shader's locations.
     pub targets: &'static [TargetName],
-    /// Which of all pipelines it is, by which its descriptor sets are found.
+    /// Number of the pipeline among all, by which its descriptor sets are found.
     pub number: usize,
     _pipeline: gpu::Pipeline,
 }
@@ -87,12 +88,12 @@ impl Pipeline {
         Self { handle: pipeline.handle, layout, name, label, targets: &[], number, _pipeline: pipeline }
     }
 
-    /// It, made for these colour targets.
+    /// This pipeline, made for these colour targets.
     pub fn drawing_into(self, targets: &'static [TargetName]) -> Self {
         Self { targets, ..self }
     }
 
-    /// What its shaders use.
+    /// What the pipeline's shaders use.
     pub fn uses(&self) -> &Uses {
         &self.layout.uses
     }
@@ -101,10 +102,10 @@ impl Pipeline {
 /// The buffers of one clustering in one frame in flight, and the sets that bind them.
 #[derive(Clone, Copy)]
 pub struct BoundBuffers<'a> {
-    /// In the order of [`crate::buffers::BufferName::ALL`].
+    /// Vulkan buffers, in the order of [`crate::buffers::BufferName::ALL`].
     pub handles: &'a [vk::Buffer; BUFFER_COUNT],
-    /// By number of the pipeline.
+    /// Descriptor sets, by the number of the pipeline.
     pub sets: &'a [vk::DescriptorSet],
-    /// Those that the way at hand leaves empty: nothing is read from or written to them.
+    /// Buffers that the way at hand leaves empty: nothing is read from or written to them.
     pub empty: BufferSet,
 }

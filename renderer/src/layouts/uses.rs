@@ -1,6 +1,6 @@
 //! What shaders statically use, read off their SPIR-V.
 
-use crate::buffers::{BufferName, BufferSet, View};
+use crate::buffers::{BufferName, BufferSet, BufferView};
 use crate::gpu_interface::{SET_BUFFERS, SET_DEPTH, SET_MATERIAL};
 use crate::{Error, Result};
 use ash::vk;
@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Uses {
     /// Buffers as they are viewed, with the stages that do.
-    pub views: BTreeMap<(BufferName, View), vk::ShaderStageFlags>,
+    pub views: BTreeMap<(BufferName, BufferView), vk::ShaderStageFlags>,
     /// Buffers that are read, through any view.
     pub read: BufferSet,
     /// Buffers that are written.
@@ -24,7 +24,7 @@ pub struct Uses {
 }
 
 impl Uses {
-    /// Of the shaders of some stages, by their SPIR-V; `name` is for messages.
+    /// What the shaders of some stages use, by their SPIR-V; `name` is for messages.
     ///
     /// # Errors
     /// [`Error::Internal`] where SPIR-V cannot be read, or binds what nobody declares.
@@ -63,7 +63,7 @@ impl Uses {
 
     /// The stages that use a buffer.
     pub fn stages(&self, name: BufferName) -> vk::ShaderStageFlags {
-        let views = View::ALL.into_iter().filter_map(|view| self.views.get(&(name, view)));
+        let views = BufferView::ALL.into_iter().filter_map(|view| self.views.get(&(name, view)));
         views.fold(vk::ShaderStageFlags::empty(), |all, &stages| all | stages)
     }
 
@@ -74,8 +74,9 @@ impl Uses {
     pub fn check(&self, pipeline: &str, device: &str, most: u32) -> Result<()> {
         use vk::ShaderStageFlags as S;
         for stage in [S::COMPUTE, S::VERTEX, S::FRAGMENT] {
-            let bound =
-                |(&(_, view), stages): (&(_, View), &S)| view == View::Storage && stages.contains(stage);
+            let bound = |(&(_, view), stages): (&(_, BufferView), &S)| {
+                view == BufferView::Storage && stages.contains(stage)
+            };
             let needed = self.views.iter().filter(|&entry| bound(entry)).count();
             if needed > most as usize {
                 return Err(Error::Device(format!(
@@ -197,8 +198,8 @@ mod tests {
         );
         assert_eq!(found.written, set(&[B::ListOffsets, B::ClusterBits, B::State, B::LightNodes]));
         assert_eq!(found.views.len(), 8);
-        assert!(found.views.contains_key(&(B::State, View::Uniform)));
-        assert!(!found.views.contains_key(&(B::LightIndices, View::Storage)));
+        assert!(found.views.contains_key(&(B::State, BufferView::Uniform)));
+        assert!(!found.views.contains_key(&(B::LightIndices, BufferView::Storage)));
         assert!(!found.material && !found.depth);
     }
 

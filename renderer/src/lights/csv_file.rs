@@ -12,7 +12,7 @@ const COLUMNS: [&str; 10] = ["x", "y", "z", "r", "g", "b", "i", "i0", "r0", "r1"
 /// Lights of a file, which is known by what it holds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LightsFile {
-    /// In the order of the file's rows.
+    /// Lights in the order of the file's rows.
     pub lights: Vec<PointLight>,
     /// Hexadecimal SHA-256 of the file.
     pub sha256: String,

@@ -10,11 +10,11 @@ use std::str::FromStr;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "RawLighting")]
 pub struct Lighting {
-    /// How many.
+    /// Number of lights N.
     pub count: u32,
-    /// Intensity I.
+    /// Intensity I of each light.
     pub intensity: f32,
-    /// Cut-off I0.
+    /// Cut-off I0 of each light.
     pub cutoff: f32,
     /// Near radius R0, metres.
     pub r0: f32,
@@ -23,7 +23,7 @@ pub struct Lighting {
 /// Where the lights of one run come from.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LightsFrom {
-    /// Falling lights.
+    /// Falling lights of this number and strength.
     Rain(Lighting),
     /// Static lights of a CSV file.
     File(PathBuf),

@@ -17,13 +17,13 @@ use serde::Serialize;
 /// A point light. Its influence ends at `r1` (Gelderen appendix A).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PointLight {
-    /// World position, metres.
+    /// Place of the light in the world, metres.
     pub position: [f32; 3],
     /// Linear colour, multiplies the attenuation.
     pub tint: [f32; 3],
-    /// Intensity I.
+    /// Intensity I of the light.
     pub intensity: f32,
-    /// Intensity cut-off I0.
+    /// Cut-off I0 of the intensity.
     pub cutoff: f32,
     /// Near radius R0: the distance is clamped to at least this, metres.
     pub r0: f32,
@@ -37,7 +37,7 @@ impl PointLight {
         Self { position, tint, intensity, cutoff, r0, r1: (intensity / cutoff).sqrt() }
     }
 
-    /// The same light where its influence ends at `r1` metres: nearer than sqrt(I/I0), the cut-off is raised to I/R1^2, so
+    /// This light where its influence ends at `r1` metres: nearer than sqrt(I/I0), the cut-off is raised to I/R1^2, so
     /// that the light still fades to nothing there.
     pub fn ending_at(self, r1: f32) -> Self {
         if !(r1 > 0.0 && r1 < self.r1) {

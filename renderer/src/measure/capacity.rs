@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 /// How many entries a clustering's buffers hold.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Capacities {
-    /// Visible clusters.
+    /// Most visible clusters.
     pub visible_clusters: u32,
-    /// Light indices.
+    /// Most light indices.
     pub light_indices: u32,
 }
 
@@ -20,8 +20,8 @@ pub struct GrowthEvent {
     pub clustering: u32,
     /// Which buffer: `visible_clusters` or `light_indices`.
     pub buffer: String,
-    /// What it held.
+    /// How many entries the buffer held.
     pub from: u32,
-    /// What it holds since.
+    /// How many entries the buffer holds since.
     pub to: u32,
 }

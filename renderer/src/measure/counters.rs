@@ -11,17 +11,17 @@ macro_rules! counters {
         }
 
         impl DeviceCounts {
-            /// Their names, in the order in which the device has them.
+            /// Names of the counters, in the order in which the device has them.
             pub const NAMES: &'static [&'static str] = &[$(stringify!($name)),*];
 
-            /// As the device has them: of each the low word, then the high one.
+            /// Counters as the device has them: of each the low word, then the high one.
             pub fn from_words(words: &[u32]) -> Self {
                 let mut counts =
                     words.chunks_exact(2).map(|pair| u64::from(pair[0]) | u64::from(pair[1]) << 32);
                 Self { $($name: counts.next().unwrap_or(0),)* }
             }
 
-            /// Adds those of another clustering.
+            /// Adds the counts of another clustering.
             pub fn add(&mut self, other: &Self) {
                 $(self.$name += other.$name;)*
             }
@@ -36,9 +36,9 @@ counters! {
     fragments_without_cluster,
     /// Evaluations of one light for one fragment.
     lighting_computations,
-    /// Those closer than R1.
+    /// Lighting computations whose light is closer than R1.
     needed_computations,
-    /// Sphere against cluster tests.
+    /// Tests of a light's volume against a cluster or a node.
     intersection_tests,
 }
 

@@ -9,7 +9,7 @@ use half::f16;
 pub struct ClusterRecord {
     /// Linear index ix + Dx*(iy + Dy*iz).
     pub index: u32,
-    /// Fragments (samples) marked in it.
+    /// Fragments (samples) marked in the cluster.
     pub fragments: u32,
     /// Length of its light list.
     pub lights: u32,
@@ -43,13 +43,14 @@ pub struct FrameCounts {
     pub frame: u32,
     /// Frame number times the recording's time step, seconds.
     pub time_s: f64,
-    /// Rendering cameras.
+    /// How many rendering cameras there are.
     pub views: u32,
-    /// One entry a clustering: a view each for Indi, one for Encl, none for all-lights.
+    /// What was counted of each clustering: one a view for Indi, one for Encl, none for all-lights.
     pub clusterings: Vec<ClusteringCounts>,
     /// What the shaders counted, over clusterings.
     pub counters: DeviceCounts,
-    /// Per clustering (views for all-lights): (lights, fragments) for every bin with fragments, ascending.
+    /// Histogram of each clustering (of each view for all-lights): (lights, fragments) for every bin with fragments,
+    /// ascending.
     pub lights_per_fragment: Vec<Vec<(u32, u64)>>,
 }
 
@@ -58,7 +59,7 @@ pub struct FrameCounts {
 pub struct StageTime {
     /// Path in the stage tree, such as `frame/cluster[0]/count_lights`.
     pub stage: String,
-    /// GPU time, milliseconds.
+    /// Time on the GPU, milliseconds.
     pub gpu_ms: f64,
     /// CPU time spent recording it, milliseconds.
     pub cpu_ms: f64,
@@ -67,7 +68,7 @@ pub struct StageTime {
 /// All stages of one frame of one temporal run, parents before children, in execution order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrameTimes {
-    /// Temporal run, from 0.
+    /// Number of the temporal run, from 0.
     pub run: u32,
     /// Frame number in the recording.
     pub frame: u32,
@@ -80,9 +81,9 @@ pub struct FrameTimes {
 pub struct ViewPixels {
     /// `mono`, `left`, `right` or `view2`...
     pub name: String,
-    /// Pixels.
+    /// Width, pixels.
     pub width: u32,
-    /// Pixels.
+    /// Height, pixels.
     pub height: u32,
     /// Linear HDR colour, as it is seen before the background, and coverage.
     pub color: Vec<[f16; 4]>,
@@ -98,7 +99,7 @@ pub struct ViewPixels {
     pub cluster_index: Vec<u32>,
     /// Cells a side of the grid that the index counts in; zeros without clusters.
     pub dimensions: [u32; 3],
-    /// World from view, column-major.
+    /// Matrix that takes view to world space.
     pub world_from_view: glam::DMat4,
     /// Clip from view (reversed depth), column-major.
     pub clip_from_view: glam::DMat4,

@@ -15,7 +15,7 @@ pub struct StageSpan {
 /// All stages of one frame of one temporal run, parents before children, in execution order.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FrameTrace {
-    /// Temporal run, from 0.
+    /// Number of the temporal run, from 0.
     pub run: u32,
     /// Frame number in the recording.
     pub frame: u32,

@@ -7,21 +7,21 @@ use crate::geometry::CellShape;
 /// A kind of method: what is behind a name but for the sizes.
 #[derive(Debug)]
 pub struct Kind {
-    /// The name without sizes.
+    /// Name of the kind: that of its methods without sizes.
     pub name: &'static str,
     /// What the numbers behind the name are, in order.
     pub sizes: &'static [&'static str],
     /// The sizes that its paper finds best, or that are usual.
     pub tuned: &'static [f64],
-    /// As figures call it.
+    /// Name of the kind in figures.
     pub title: &'static str,
-    /// What it does, a line for help and README.
+    /// What the kind does, a line for help and README.
     pub about: &'static str,
-    /// How views share its groups.
+    /// How views share the clusterings of the method.
     pub sharing: Sharing,
     /// How shading walks a list: a file in `shaders-glsl/lookup`.
     pub lookup: &'static str,
-    /// What its cells look like, which says what they are tested by; `None` where there are neither cells nor lists.
+    /// Shape of the cells, which says what they are tested by; `None` where there are neither cells nor lists.
     pub cells: Option<CellShape>,
     make: fn(&[f64]) -> Method,
 }
@@ -145,7 +145,7 @@ impl Method {
         KINDS.iter().find(|kind| kind.tuned().is_like(self)).expect("the table has every kind of method")
     }
 
-    /// Its sizes, in the order of its name.
+    /// Sizes of the method, in the order of its name.
     pub fn sizes(&self) -> Vec<f64> {
         match self {
             Self::AllLights => vec![],
@@ -153,7 +153,7 @@ impl Method {
         }
     }
 
-    /// Whether it builds light lists for cells of a grid.
+    /// Whether the method builds light lists for cells of a grid.
     pub fn has_lists(&self) -> bool {
         self.kind().cells.is_some()
     }

@@ -31,7 +31,7 @@ use crate::passes::{Depth, Frame, LightLists, Lights};
 pub enum Method {
     /// Brute force: every fragment evaluates every light.
     AllLights,
-    /// By the cells of grids.
+    /// Lights are found by the cells of grids.
     Grid(GridMethod),
 }
 

@@ -47,7 +47,9 @@ pub use manifest::{DeviceInfo, MANIFEST, Manifest, RUN_FORMAT, Source, git_revis
 pub use preview::write_png;
 pub use preview::{cluster_preview, image_preview, light_preview, write_previews};
 pub use rows::FrameRow;
-pub(crate) use rows::{ClusteringRow, FRAGMENTS_PER_CLUSTER, HistogramRow, LIGHTS_PER_CLUSTER, Row};
+pub(crate) use rows::{
+    ClusteringRow, FRAGMENTS_PER_CLUSTER, HistogramRow, LIGHTS_PER_CLUSTER, Row, TimingRow,
+};
 pub use run::{PlannedRun, RunWriter, planned_runs, write_summary};
 pub use run_times::{ColumnTimes, MeasuredTimes, saved_samples, saved_times};
 pub use saved::{

@@ -23,7 +23,7 @@ pub enum Use {
     TransferRead,
     /// Destination of a copy, fill or resolve.
     TransferWrite,
-    /// Colour attachment.
+    /// Written as a colour attachment.
     Color,
     /// Depth attachment, tested and written.
     Depth,
@@ -91,7 +91,7 @@ impl Use {
     }
 }
 
-/// One resource with its use.
+/// One resource with the use that is made of it.
 #[derive(Debug, Clone, Copy)]
 pub struct Access {
     resource: Resource,
@@ -105,7 +105,7 @@ enum Resource {
 }
 
 impl Access {
-    /// A whole buffer.
+    /// Use of a whole buffer.
     pub fn buffer(buffer: vk::Buffer, usage: Use) -> Self {
         Self { resource: Resource::Buffer(buffer), usage }
     }

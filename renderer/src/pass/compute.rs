@@ -2,69 +2,60 @@
 
 use super::{Access, Declared, Recorder, Use};
 use crate::buffers::{BufferName, BufferSet};
-use crate::gpu_interface::{DispatchSize, SET_BUFFERS, SET_DEPTH};
+use crate::gpu_interface::{DispatchSize, Push, SET_BUFFERS, SET_DEPTH};
 use crate::layouts::{BoundBuffers, Pipeline};
 use ash::vk;
 
-/// How many workgroups run.
+/// How many workgroups of a compute pass run.
 #[derive(Debug, Clone, Copy)]
 pub enum Size {
-    /// So many along x and y.
-    Groups(u32, u32),
-    /// As many as the device wrote into a slot of [`BufferName::Dispatches`].
+    /// As many along x and along y.
+    Workgroups(u32, u32),
+    /// As many as the device wrote into the entry of [`BufferName::Dispatches`] with this index.
     Indirect(u32),
 }
 
 impl Size {
-    /// A thread for each of `items`, in workgroups of `group`.
-    pub fn threads(items: u32, group: u32) -> Self {
-        Self::Groups(items.div_ceil(group), 1)
+    /// A thread for each of `items`, in workgroups of `workgroup` threads along x.
+    pub fn threads(items: u32, workgroup: u32) -> Self {
+        Self::Workgroups(items.div_ceil(workgroup), 1)
     }
 
     /// A thread for each pixel, in workgroups of 8 by 8.
     pub fn pixels([width, height]: [u32; 2]) -> Self {
-        Self::Groups(width.div_ceil(8), height.div_ceil(8))
+        Self::Workgroups(width.div_ceil(8), height.div_ceil(8))
     }
-}
-
-/// What shaders are told by push constants.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Push {
-    /// Number of the view.
-    pub view: u32,
-    /// Number of the step, for pipelines that run several times in a stage.
-    pub step: u32,
 }
 
 impl Push {
-    /// The number of a view.
+    /// Tells the number of a view.
     pub fn view(view: usize) -> Self {
-        Self { view: view as u32, step: 0 }
+        Self { view: view as u32, ..Self::default() }
     }
 
-    /// The number of a step.
+    /// Tells the number of a step.
     pub fn step(step: u32) -> Self {
-        Self { view: 0, step }
+        Self { step, ..Self::default() }
     }
 }
 
 /// A depth image, as compute shaders sample it.
 #[derive(Debug, Clone, Copy)]
 pub struct DepthImage {
-    /// It, with all its layers.
+    /// The image with all its layers.
     pub image: vk::Image,
-    /// The set that binds a layer of it.
+    /// Descriptor set that binds one layer of the image.
     pub set: vk::DescriptorSet,
 }
 
 /// A compute pass.
 #[derive(Clone, Copy)]
 pub struct Dispatch<'a> {
-    /// What runs.
+    /// Pipeline that runs.
     pub pipeline: &'a Pipeline,
     /// What the names of buffers stand for.
     pub buffers: BoundBuffers<'a>,
-    /// How much of it runs.
+    /// How many workgroups run.
     pub size: Size,
     /// Buffers that are read alone.
     pub reads: BufferSet,
@@ -105,9 +96,9 @@ impl Recorder<'_> {
         }
         let (device, commands) = (&self.context.device, self.commands());
         match pass.size {
-            Size::Groups(x, y) => unsafe { device.cmd_dispatch(commands, x, y, 1) },
-            Size::Indirect(slot) => {
-                let offset = u64::from(slot) * size_of::<DispatchSize>() as u64;
+            Size::Workgroups(x, y) => unsafe { device.cmd_dispatch(commands, x, y, 1) },
+            Size::Indirect(index) => {
+                let offset = u64::from(index) * size_of::<DispatchSize>() as u64;
                 unsafe { device.cmd_dispatch_indirect(commands, dispatches, offset) };
             }
         }
@@ -131,9 +122,8 @@ impl Recorder<'_> {
     /// Tells a pipeline's shaders something else.
     pub fn push(&self, pipeline: &Pipeline, push: Push) {
         let (layout, stages) = (pipeline.layout.handle, vk::ShaderStageFlags::ALL);
-        let words = [push.view, push.step];
         let (device, commands) = (&self.context.device, self.commands());
-        unsafe { device.cmd_push_constants(commands, layout, stages, 0, bytemuck::cast_slice(&words)) };
+        unsafe { device.cmd_push_constants(commands, layout, stages, 0, bytemuck::bytes_of(&push)) };
     }
 
     /// Binds one descriptor set for a pipeline.

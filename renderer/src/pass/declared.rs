@@ -8,9 +8,9 @@ use ash::vk;
 /// The buffers that a pass touches in the frame, but for those that stay as they are.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Declared {
-    /// Read alone.
+    /// Buffers that are read alone.
     pub reads: BufferSet,
-    /// Written, and perhaps read.
+    /// Buffers that are written, and perhaps read.
     pub writes: BufferSet,
 }
 

@@ -7,8 +7,9 @@ mod declared;
 mod recorder;
 mod transfer;
 
+pub use crate::gpu_interface::Push;
 pub use access::{Access, Use};
-pub use compute::{DepthImage, Dispatch, Push, Size};
+pub use compute::{DepthImage, Dispatch, Size};
 pub use declared::Declared;
 pub use recorder::{FrameTracker, Recorder, ScopeName, ScopeSpan, ScopeTree, Timestamps};
 pub use transfer::BufferCopy;

@@ -94,7 +94,7 @@ pub struct Timestamps {
 pub struct ScopeSpan {
     /// Start and end in ticks of the device's clock; `None` without timestamps.
     pub gpu_ticks: Option<[u64; 2]>,
-    /// When its recording began.
+    /// Time on the host when the recording of the scope began.
     pub cpu_start: Instant,
     /// How long its recording took.
     pub cpu_time: Duration,
@@ -162,7 +162,7 @@ impl Drop for Timestamps {
 
 /// Records one frame: every pass gets its label, its timestamp scope and its barriers here.
 pub struct Recorder<'a> {
-    /// For drawing the scene; all other passes have a call of their own.
+    /// The device, for drawing the scene; all other passes have a call of their own.
     pub context: &'a Context,
     commands: vk::CommandBuffer,
     /// Whether commands may have been recorded since the last timestamp.

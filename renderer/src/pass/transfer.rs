@@ -7,13 +7,13 @@ use ash::vk;
 /// A copy from the start of one buffer to somewhere in another.
 #[derive(Clone, Copy)]
 pub struct BufferCopy<'a> {
-    /// Where it comes from.
+    /// Buffer that is copied from, from its start.
     pub from: &'a Buffer,
-    /// Where it goes to.
+    /// Buffer that is copied to.
     pub to: &'a Buffer,
-    /// Where there, bytes.
+    /// Where the copy begins in `to`, bytes.
     pub offset: u64,
-    /// Bytes.
+    /// How much is copied, bytes.
     pub size: u64,
 }
 

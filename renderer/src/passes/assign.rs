@@ -4,7 +4,7 @@
 //! ```text
 //! brute      light_volumes ──────────────────────────────> meet ┐
 //! hierarchy  light_nodes ────────────────────────────────> meet ┼> light_masks ─> list_lengths, then light_indices
-//! scatter    candidates ─> groups ─> tiles, group_lights ─> meet ┘
+//! scatter    candidates ─> groups ─> packets, group_lights ─> meet ┘
 //! ```
 //!
 //! Where the masks have no room the device sizes the dispatches otherwise: pairs are found twice, counted first and then
@@ -12,11 +12,11 @@
 
 use super::handles::{LightLists, Lights, VisibleClusters};
 use super::inputs::Frame;
-use super::scan::group_tiles;
+use super::scan::group_packets;
 use crate::assign::Assigner;
 use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::gpu_interface::{
-    ASSIGN_GROUP, DISPATCH_GROUPS, DISPATCH_LISTS, DISPATCH_MASKED, DISPATCH_MEET, DISPATCH_MEET_AGAIN,
+    ASSIGN_WORKGROUP, DISPATCH_GROUPS, DISPATCH_LISTS, DISPATCH_MASKED, DISPATCH_MEET, DISPATCH_MEET_AGAIN,
     DISPATCH_UNMASKED,
 };
 use crate::layouts::Pipeline;
@@ -28,7 +28,7 @@ pub fn transform_lights(r: &mut Recorder, frame: &Frame, _lights: Lights, visibl
         r.dispatch(&Dispatch::new(
             &frame.pipelines.clustered().transform_lights,
             frame.buffers(visible.clustering),
-            Size::threads(frame.light_count, ASSIGN_GROUP),
+            Size::threads(frame.light_count, ASSIGN_WORKGROUP),
             (set(&[B::Lights]), set(&[B::LightVolumes])),
         ));
     });
@@ -84,7 +84,7 @@ fn to_groups(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
     let [count, list] = &frame.pipelines.accelerated().scatter_groups;
     let (reads, groups) = (set(&[B::State, B::Candidates]), set(&[B::Groups]));
     indirect(r, frame, visible, (count, DISPATCH_GROUPS), (reads, groups));
-    group_tiles(r, frame, visible);
+    group_packets(r, frame, visible);
     let lists = groups | set(&[B::GroupLights]);
     indirect(r, frame, visible, (list, DISPATCH_GROUPS), (reads, lists));
 }
@@ -100,20 +100,20 @@ fn meet(
     let lights = match frame.assigner {
         Assigner::Brute => set(&[B::LightVolumes]),
         Assigner::Hierarchy => set(&[B::TreeVolumes, B::TreeLights, B::LightNodes]),
-        Assigner::Scatter => set(&[B::LightVolumes, B::Groups, B::TileGroups, B::GroupLights]),
+        Assigner::Scatter => set(&[B::LightVolumes, B::Groups, B::PacketGroups, B::GroupLights]),
     };
     let reads = reads | lights | set(&[B::VisibleClusters]);
     indirect(r, frame, visible, dispatch, (reads, writes));
 }
 
-/// Runs a pipeline with the size in a slot of the dispatches.
+/// Runs a pipeline with a size that the device wrote.
 fn indirect(
     r: &mut Recorder,
     frame: &Frame,
     visible: VisibleClusters,
-    (pipeline, slot): (&Pipeline, u32),
+    (pipeline, size): (&Pipeline, u32),
     declared: (BufferSet, BufferSet),
 ) {
     let buffers = frame.buffers(visible.clustering);
-    r.dispatch(&Dispatch::new(pipeline, buffers, Size::Indirect(slot), declared));
+    r.dispatch(&Dispatch::new(pipeline, buffers, Size::Indirect(size), declared));
 }

@@ -3,7 +3,7 @@
 
 use super::inputs::{Draws, Eyes, Frame};
 use crate::buffers::{BufferName as B, BufferSet, set};
-use crate::gpu_interface::CULL_GROUP;
+use crate::gpu_interface::CULL_WORKGROUP;
 use crate::pass::{Dispatch, Push, Recorder, Size};
 
 /// Fills the draw commands of all views, as geometry passes draw them.
@@ -13,18 +13,18 @@ pub fn record(r: &mut Recorder, frame: &Frame) {
 
 /// Fills the draw commands of some views: of each by itself, and of all at once where a pass draws them so.
 fn cull(r: &mut Recorder, frame: &Frame, eyes: Eyes) {
-    let Draws::Indirect { slots, .. } = &frame.draws else { return };
+    let Draws::Indirect { drawables, .. } = &frame.draws else { return };
     r.scope(eyes.stage("cull"), |r| {
         let mut dispatch = |eyes: Eyes| {
             let view = eyes.first();
             r.dispatch(&Dispatch {
                 pipeline: frame.pipelines.cull(),
                 buffers: frame.buffers_of_view(view),
-                size: Size::threads(slots.slots.len() as u32, CULL_GROUP),
+                size: Size::threads(drawables.all.len() as u32, CULL_WORKGROUP),
                 reads: BufferSet::EMPTY,
                 writes: set(&[B::DrawCommands, B::DrawnInstances]),
                 depth: None,
-                push: Push { view: view as u32, step: frame.view_count(eyes) },
+                push: Push { view_count: frame.view_count(eyes), ..Push::view(view) },
             });
         };
         // Marking and transparent surfaces are drawn view by view even so.

@@ -10,7 +10,7 @@ use super::handles::{Lights, VisibleClusters};
 use super::inputs::Frame;
 use super::scan::rank_lights;
 use crate::buffers::{BufferName as B, set};
-use crate::gpu_interface::{ASSIGN_GROUP, DISPATCH_LISTS};
+use crate::gpu_interface::{ASSIGN_WORKGROUP, DISPATCH_LISTS};
 use crate::pass::{Dispatch, Recorder, Size};
 
 /// Drops the lights whose cells hold nothing visible.
@@ -22,7 +22,7 @@ pub fn cull_lights(r: &mut Recorder, frame: &Frame, _lights: Lights, visible: Vi
             r.dispatch(&Dispatch::new(pipeline, frame.buffers(clustering), size, declared));
         };
         // A thread for each word of light bits.
-        let words = Size::threads(frame.light_count.div_ceil(32), ASSIGN_GROUP);
+        let words = Size::threads(frame.light_count.div_ceil(32), ASSIGN_WORKGROUP);
         let (lights, blocks, bits) = (set(&[B::Lights]), set(&[B::BlockBits]), set(&[B::LightBits]));
         r.clear(&frame.clusterings[clustering].buffers[B::BlockBits]);
         let clusters = set(&[B::State, B::VisibleClusters]);

@@ -1,6 +1,6 @@
 //! Drawing the scene, a call a pass: what is attached, what is drawn with which pipelines, what their shaders touch.
 
-use super::inputs::{Draws, Eyes, Frame, Layer};
+use super::inputs::{Draws, Eyes, Frame, ImageLayer};
 use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::draw_list::{DrawRun, SurfaceKind};
 use crate::gpu_interface::{DrawCommand, SET_MATERIAL};
@@ -18,7 +18,7 @@ use std::sync::Arc;
 pub enum DepthUse {
     /// Cleared to far, tested and written.
     Write,
-    /// Tested alone.
+    /// Depth is tested and not written.
     Test,
 }
 
@@ -27,21 +27,21 @@ pub enum DepthUse {
 pub enum ColorUse {
     /// Cleared to red, green, blue and alpha; the format of the target is one of floats.
     Clear([f32; 4]),
-    /// Drawn over.
+    /// What is there is kept and drawn over.
     Keep,
 }
 
 /// What draws surfaces of a kind.
 #[derive(Clone, Copy)]
 pub enum SurfacePipelines<'a> {
-    /// The same for all.
+    /// One pipeline for all materials.
     One(&'a Pipeline),
-    /// By the textures of the material.
+    /// A pipeline for each set of textures that materials have.
     ByTextures(&'a BTreeMap<TextureSet, Arc<Pipeline>>),
 }
 
 impl<'a> SurfacePipelines<'a> {
-    /// All of them.
+    /// All pipelines that may draw.
     fn all(self) -> impl Iterator<Item = &'a Pipeline> + Clone {
         let (one, by_textures) = match self {
             Self::One(pipeline) => (Some(pipeline), None),
@@ -51,7 +51,7 @@ impl<'a> SurfacePipelines<'a> {
             .chain(by_textures.into_iter().flat_map(|all| all.values().map(|pipeline| &**pipeline)))
     }
 
-    /// That for materials with these textures.
+    /// The pipeline for materials with these textures.
     fn of(self, textures: TextureSet) -> &'a Pipeline {
         match self {
             Self::One(pipeline) => pipeline,
@@ -63,7 +63,7 @@ impl<'a> SurfacePipelines<'a> {
 /// A pass that draws surfaces of the scene.
 #[derive(Clone, Copy)]
 pub struct SurfacePass<'a> {
-    /// The views it draws.
+    /// The views that the pass draws.
     pub eyes: Eyes,
     /// The colour targets that it draws into, in the order of the shaders' locations, and what becomes of each.
     pub colors: &'a [(TargetName, ColorUse)],
@@ -71,7 +71,7 @@ pub struct SurfacePass<'a> {
     pub depth: DepthUse,
     /// What is drawn, in order.
     pub draws: &'a [(SurfaceKind, SurfacePipelines<'a>)],
-    /// Buffers that are read alone, besides the draws themselves.
+    /// Buffers that are read alone, not counting those of the scene that draws read.
     pub reads: BufferSet,
     /// Buffers that are written, and perhaps read.
     pub writes: BufferSet,
@@ -104,15 +104,15 @@ pub fn surfaces(r: &mut Recorder, frame: &Frame, pass: &SurfacePass) {
 /// Instances of a shape that a vertex shader makes, drawn over a picture.
 #[derive(Clone, Copy)]
 pub struct Overlay<'a> {
-    /// What draws it.
+    /// Pipeline that draws the overlay.
     pub pipeline: &'a Pipeline,
     /// Vertices of an instance.
     pub vertices: u32,
-    /// Instances.
+    /// Number of instances.
     pub count: u32,
     /// Data of each instance, where the shader reads any.
     pub instances: Option<&'a Buffer>,
-    /// Whether it is closed, so that the faces away from the camera are left out.
+    /// Whether the shape is closed, so that the faces away from the camera are left out.
     pub closed: bool,
     /// Buffers that are read.
     pub reads: BufferSet,
@@ -177,7 +177,7 @@ impl Attached<'_> {
     }
 
     /// The attachment of a view's image: its layer, or all layers for all views.
-    fn attachment(&self, layer: &Layer) -> vk::RenderingAttachmentInfo<'static> {
+    fn attachment(&self, layer: &ImageLayer) -> vk::RenderingAttachmentInfo<'static> {
         vk::RenderingAttachmentInfo::default().image_view(match self.eyes {
             Eyes::One(_) => layer.view,
             Eyes::All => layer.image.view,
@@ -267,8 +267,7 @@ fn draw(r: &Recorder, frame: &Frame, eyes: Eyes, (kind, pipelines): (SurfaceKind
     let buffers = frame.buffers_of_view(eyes.first());
     // Views drawn at once take a draw for each way that faces turn, and leave out what is not of it.
     for mirrored in [false, true].into_iter().filter(|&way| frame.any_mirrored(eyes, way)) {
-        let step = if eyes == Eyes::All { u32::from(mirrored) } else { 0 };
-        let push = Push { view: eyes.first() as u32, step };
+        let push = Push { mirrored: u32::from(eyes == Eyes::All && mirrored), ..Push::view(eyes.first()) };
         let mut state =
             SurfaceState { pipelines, buffers, push, mirrored, bound: None, material: None, facing: None };
         draw_all(r, frame, eyes, (kind, &mut state));
@@ -284,11 +283,11 @@ fn draw_all(r: &Recorder, frame: &Frame, eyes: Eyes, (kind, state): (SurfaceKind
                 draw_run(r, frame, run, views);
             }
         }
-        Draws::Indirect { slots, orders, buffers } => {
-            let part = list * slots.slots.len();
-            for group in orders[list].groups(slots, kind) {
-                state.set(r, frame, group.batch);
-                draw_commands(r, &buffers.commands, part as u64 + u64::from(group.first), group.count);
+        Draws::Indirect { drawables, orders, buffers } => {
+            let part = list * drawables.all.len();
+            for draw in orders[list].multi_draws(drawables, kind) {
+                state.set(r, frame, draw.batch);
+                draw_commands(r, &buffers.commands, part as u64 + u64::from(draw.first), draw.count);
             }
         }
     }
@@ -371,7 +370,9 @@ impl Frame<'_> {
         let list = self.list_of(eyes);
         match &self.draws {
             Draws::Listed(lists) => !lists[list].runs(kind).is_empty(),
-            Draws::Indirect { slots, orders, .. } => !orders[list].groups(slots, kind).is_empty(),
+            Draws::Indirect { drawables, orders, .. } => {
+                !orders[list].multi_draws(drawables, kind).is_empty()
+            }
         }
     }
 }

@@ -22,15 +22,15 @@ pub struct Depth {
 }
 
 impl Depth {
-    /// Of no view.
+    /// Depth of no view.
     pub const NONE: Self = Self { views: 0 };
 
-    /// Of the views that a pass drew.
+    /// Depth of the views that a pass drew.
     pub(super) fn of(frame: &Frame, eyes: Eyes) -> Self {
         Self { views: bits(frame, eyes) }
     }
 
-    /// Whether it is there for all that a pass draws.
+    /// Whether the depth is there for all views that a pass draws.
     pub fn covers(self, frame: &Frame, eyes: Eyes) -> bool {
         let views = bits(frame, eyes);
         self.views & views == views
@@ -52,7 +52,7 @@ pub struct VisibleClusters {
 }
 
 impl VisibleClusters {
-    /// Those that a test put there.
+    /// Visible clusters that a test put on the device.
     #[cfg(test)]
     pub(crate) fn given(clustering: usize) -> Self {
         Self { clustering }
@@ -72,12 +72,12 @@ pub struct LightLists {
 }
 
 impl LightLists {
-    /// Of no clustering.
+    /// Light lists of no clustering.
     pub const NONE: Self = Self { clusterings: 0 };
     /// What a method without lists has: every view looks all lights up.
     pub const ALL_LIGHTS: Self = Self { clusterings: u32::MAX };
 
-    /// Of the clustering whose visible clusters were given lists.
+    /// Light lists of the clustering whose visible clusters were given lists.
     pub(super) fn of(visible: VisibleClusters) -> Self {
         Self { clusterings: 1 << visible.clustering }
     }

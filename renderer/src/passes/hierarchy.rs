@@ -16,9 +16,13 @@ use crate::pass::{Dispatch, Push, Recorder, Size};
 pub fn build_hierarchy(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
     r.scope("build_hierarchy", |r| {
         let pipelines = frame.pipelines.accelerated();
-        let run = |r: &mut Recorder, pipeline, (slot, step), declared| {
-            let dispatch =
-                Dispatch::new(pipeline, frame.buffers(visible.clustering), Size::Indirect(slot), declared);
+        let run = |r: &mut Recorder, pipeline, (dispatch_size, step), declared| {
+            let dispatch = Dispatch::new(
+                pipeline,
+                frame.buffers(visible.clustering),
+                Size::Indirect(dispatch_size),
+                declared,
+            );
             r.dispatch(&Dispatch { push: Push::step(step), ..dispatch });
         };
         let (state, sorted) = (set(&[B::State]), set(&[B::SortItems, B::DigitCounts]));

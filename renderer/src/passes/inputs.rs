@@ -3,7 +3,7 @@
 use crate::assign::{Assigner, Clusters, Marking};
 use crate::clustering::Clustering;
 use crate::draw_list::DrawList;
-use crate::draw_slots::{DrawSlots, SlotOrder};
+use crate::drawables::{DrawableOrder, Drawables};
 use crate::geometry::Sharing;
 use crate::gpu_scene::GpuScene;
 use crate::layouts::BoundBuffers;
@@ -16,22 +16,22 @@ use std::ops::{Index, Range};
 use std::sync::Arc;
 
 /// One layer of an image. With multiview a view is a layer of an image that all views share; else it has its own image.
-pub struct Layer {
-    /// All layers.
+pub struct ImageLayer {
+    /// The image with all its layers.
     pub image: Arc<Image>,
-    /// Which of them.
+    /// Index of the layer in its image.
     pub index: u32,
-    /// It alone.
+    /// View of the layer alone.
     pub view: vk::ImageView,
 }
 
-impl Layer {
+impl ImageLayer {
     /// A layer of an image.
     pub fn new(image: &Arc<Image>, index: usize) -> Self {
         Self { image: image.clone(), index: index as u32, view: image.layer_views[index] }
     }
 
-    /// Its colour, for copies.
+    /// Colour of the layer, for copies.
     pub fn color(&self) -> (vk::Image, vk::ImageSubresourceLayers) {
         let layers = vk::ImageSubresourceLayers::default().aspect_mask(vk::ImageAspectFlags::COLOR);
         (self.image.handle, layers.base_array_layer(self.index).layer_count(1))
@@ -41,7 +41,7 @@ impl Layer {
 /// The views that a geometry pass draws at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Eyes {
-    /// One view.
+    /// One view, by its number.
     One(usize),
     /// All, each into its layer.
     All,
@@ -68,30 +68,30 @@ impl Eyes {
 /// A colour target of one view.
 pub struct ColorTarget {
     /// What is drawn into, with all samples.
-    pub drawn: Layer,
-    /// The same with one sample a pixel; `None` where `drawn` has no more, or the target is not resolved.
-    pub resolved: Option<Layer>,
+    pub drawn: ImageLayer,
+    /// The target with one sample a pixel; `None` where `drawn` has no more, or the target is not resolved.
+    pub resolved: Option<ImageLayer>,
 }
 
 impl ColorTarget {
     /// What the host reads.
-    pub fn readable(&self) -> &Layer {
+    pub fn readable(&self) -> &ImageLayer {
         self.resolved.as_ref().unwrap_or(&self.drawn)
     }
 }
 
 /// What a view is rendered into; its colour targets are found by name.
 pub struct ViewTargets {
-    /// Reversed depth.
-    pub depth: Layer,
-    /// `depth`, for compute shaders.
+    /// Reversed depth of the view.
+    pub depth: ImageLayer,
+    /// Descriptor set that binds `depth` for compute shaders.
     pub depth_set: vk::DescriptorSet,
-    /// In the order of [`TargetName::ALL`].
+    /// Colour targets in the order of [`TargetName::ALL`].
     pub colors: Vec<ColorTarget>,
 }
 
 impl ViewTargets {
-    /// Its depth, as compute shaders sample it.
+    /// Depth of the view, as compute shaders sample it.
     pub fn depth_image(&self) -> DepthImage {
         DepthImage { image: self.depth.image.handle, set: self.depth_set }
     }
@@ -107,7 +107,7 @@ impl Index<TargetName> for ViewTargets {
 
 /// What stage `cull` fills, a part for each view and one for all at once; shared by the frames in flight.
 pub struct DrawBuffers {
-    /// [`crate::gpu_interface::DrawCommand`], as many in each part as there are slots.
+    /// [`crate::gpu_interface::DrawCommand`], as many in each part as there are drawables.
     pub commands: Buffer,
     /// Instances that the commands draw.
     pub drawn_instances: Buffer,
@@ -117,13 +117,13 @@ pub struct DrawBuffers {
 pub enum Draws<'a> {
     /// What the host let through, a list for each view and one for all at once.
     Listed(&'a [DrawList]),
-    /// Everything, by commands that stage `cull` fills, as many lists.
+    /// Everything, by commands that stage `cull` fills, a part for each view and one for all at once.
     Indirect {
-        /// The scene's.
-        slots: &'a DrawSlots,
-        /// An order for each view.
-        orders: &'a [SlotOrder],
-        /// The commands.
+        /// Drawables of the scene.
+        drawables: &'a Drawables,
+        /// Order of the transparent drawables for each view.
+        orders: &'a [DrawableOrder],
+        /// Buffers that hold the commands.
         buffers: &'a DrawBuffers,
     },
 }
@@ -132,13 +132,13 @@ pub enum Draws<'a> {
 pub struct Frame<'a> {
     /// Pipelines of the method.
     pub pipelines: &'a Pipelines,
-    /// What is drawn.
+    /// The scene that is drawn.
     pub scene: &'a GpuScene,
-    /// What each view draws of it.
+    /// What each view draws of the scene.
     pub draws: Draws<'a>,
     /// What each view is rendered into.
     pub targets: &'a [ViewTargets],
-    /// Of each view, whether it sees the world in a mirror.
+    /// Whether each view sees the world in a mirror.
     pub mirrored: &'a [bool],
     /// The clusterings; for a method without, one that holds every view and no grid.
     pub clusterings: &'a [Clustering],
@@ -158,7 +158,7 @@ pub struct Frame<'a> {
     pub lights: &'a Buffer,
     /// The lights as the host wrote them.
     pub light_staging: &'a Buffer,
-    /// Whether those on the device are others yet.
+    /// Whether the lights on the device are still those of another frame.
     pub lights_changed: bool,
     /// How many lights there are.
     pub light_count: u32,
@@ -166,7 +166,7 @@ pub struct Frame<'a> {
     pub states: &'a Buffer,
     /// Width and height of each view, pixels.
     pub resolution: [u32; 2],
-    /// Which of the frames in flight this is.
+    /// Slot of the frame in flight that is recorded.
     pub slot: usize,
 }
 
@@ -217,7 +217,7 @@ impl Frame<'_> {
         }
     }
 
-    /// Which of the draw lists is for `eyes`: those of single views, then that of all at once.
+    /// Index of the draw list for `eyes`: those of single views come first, then that of all at once.
     pub fn list_of(&self, eyes: Eyes) -> usize {
         match eyes {
             Eyes::One(view) => view,

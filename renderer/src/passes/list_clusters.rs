@@ -4,7 +4,7 @@
 use super::handles::VisibleClusters;
 use super::inputs::Frame;
 use crate::buffers::{BufferName as B, BufferSet, set};
-use crate::gpu_interface::ASSIGN_GROUP;
+use crate::gpu_interface::ASSIGN_WORKGROUP;
 use crate::pass::{Dispatch, Recorder, Size};
 
 /// Lists all clusters by ascending index.
@@ -14,7 +14,7 @@ pub fn record(r: &mut Recorder, frame: &Frame, clustering: usize) -> VisibleClus
         r.dispatch(&Dispatch::new(
             &frame.pipelines.clustered().list_clusters,
             frame.buffers(clustering),
-            Size::threads(clusters, ASSIGN_GROUP),
+            Size::threads(clusters, ASSIGN_WORKGROUP),
             (BufferSet::EMPTY, set(&[B::State, B::Dispatches, B::VisibleClusters])),
         ));
     });

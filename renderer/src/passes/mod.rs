@@ -24,4 +24,4 @@ pub mod shade;
 pub mod spheres;
 
 pub use handles::{Color, Depth, LightLists, Lights, VisibleClusters};
-pub use inputs::{ColorTarget, DrawBuffers, Draws, Eyes, Frame, Layer, ViewTargets};
+pub use inputs::{ColorTarget, DrawBuffers, Draws, Eyes, Frame, ImageLayer, ViewTargets};

@@ -11,7 +11,7 @@ use crate::vk::Buffer;
 /// What tells the list of a pixel's cluster, and its fragments.
 const LOOKED_UP: BufferSet = set(&[B::ClusterBits, B::WordRanks, B::ListOffsets, B::VisibleFragments]);
 
-/// Bytes of a view's [`TargetName::Radiance`] (half RGBA) and, behind it, of its [`PixelData`].
+/// Size in bytes of a view's [`TargetName::Radiance`] (half RGBA) and, behind it, of its [`PixelData`].
 pub fn view_bytes([width, height]: [u32; 2]) -> [u64; 2] {
     let pixels = u64::from(width) * u64::from(height);
     [TargetName::Radiance.view_bytes([width, height]), size_of::<PixelData>() as u64 * pixels]

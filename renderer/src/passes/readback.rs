@@ -6,7 +6,7 @@ use crate::gpu_interface::{COUNTER_COUNT, ClusteringState};
 use crate::pass::{BufferCopy, Recorder};
 use crate::vk::Buffer;
 
-/// Bytes of one clustering's state.
+/// Size in bytes of one clustering's state.
 pub const STATE_BYTES: u64 = size_of::<ClusteringState>() as u64;
 
 /// Copies every clustering's state, by which overflow is seen.

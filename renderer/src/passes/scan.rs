@@ -1,5 +1,5 @@
 //! The one prefix sum: stages `compact` (over the visibility words) and `light_offsets` (over the lengths of the lists),
-//! and parts of others (over the words of light bits, the digits of the sort, the tiles of scatter's groups).
+//! and parts of others (over the words of light bits, the digits of the sort, the packets of scatter's groups).
 //!
 //! ```text
 //! items ──reduce──> block_sums ──block_offsets──> block_sums, total ──apply──> exclusive prefix per item
@@ -10,7 +10,7 @@ use super::handles::VisibleClusters;
 use super::inputs::Frame;
 use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::gpu_interface::{
-    ASSIGN_GROUP, DISPATCH_SCAN, DISPATCH_SORT_SCAN, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS,
+    ASSIGN_WORKGROUP, DISPATCH_SCAN, DISPATCH_SORT_SCAN, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS,
 };
 use crate::pass::{Dispatch, Push, Recorder, Size};
 use crate::pipelines::ScanPipelines;
@@ -23,8 +23,8 @@ struct Scan<'a> {
     pipelines: &'a ScanPipelines,
     /// Items, at most.
     items: u32,
-    /// The slot of the dispatch sizes that says how many blocks there are, where the device alone knows.
-    slot: Option<u32>,
+    /// Index of the dispatch size that says how many blocks there are, where the device alone knows.
+    size: Option<u32>,
     /// What tells how many items there are.
     length: BufferSet,
     /// The items.
@@ -42,7 +42,7 @@ pub fn compact(r: &mut Recorder, frame: &Frame, clustering: usize) -> VisibleClu
         let scan = Scan {
             pipelines: &frame.pipelines.clustered().compact,
             items: frame.clusterings[clustering].word_count,
-            slot: None,
+            size: None,
             length: BufferSet::EMPTY,
             summed: set(&[B::ClusterBits]),
             emits: set(&[B::WordRanks, B::VisibleClusters]),
@@ -61,7 +61,7 @@ pub fn light_offsets(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) 
         let scan = Scan {
             pipelines: &frame.pipelines.clustered().light_offsets,
             items: frame.clusterings[clustering].visible_capacity,
-            slot: Some(DISPATCH_SCAN),
+            size: Some(DISPATCH_SCAN),
             length: set(&[B::State]),
             summed: set(&[B::ListLengths]),
             emits: set(&[B::ListOffsets]),
@@ -78,7 +78,7 @@ pub(super) fn rank_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClust
     let scan = Scan {
         pipelines: &frame.pipelines.accelerated().rank_lights,
         items: frame.light_count.div_ceil(32),
-        slot: None,
+        size: None,
         length: BufferSet::EMPTY,
         summed: set(&[B::LightBits]),
         emits: set(&[B::LightBits]),
@@ -88,16 +88,16 @@ pub(super) fn rank_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClust
     record(r, frame, clustering, &scan);
 }
 
-/// Gives groups of visible clusters the tiles that their lights fill.
-pub(super) fn group_tiles(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
+/// Gives groups of visible clusters the packets that their lights fill.
+pub(super) fn group_packets(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
     let clustering = visible.clustering;
     let scan = Scan {
-        pipelines: &frame.pipelines.accelerated().group_tiles,
-        items: frame.clusterings[clustering].visible_capacity.div_ceil(ASSIGN_GROUP),
-        slot: None,
+        pipelines: &frame.pipelines.accelerated().group_packets,
+        items: frame.clusterings[clustering].visible_capacity.div_ceil(ASSIGN_WORKGROUP),
+        size: None,
         length: set(&[B::State]),
         summed: set(&[B::Groups]),
-        emits: set(&[B::Groups, B::TileGroups]),
+        emits: set(&[B::Groups, B::PacketGroups]),
         publishes: set(&[B::State, B::Dispatches]),
         push: Push::default(),
     };
@@ -110,7 +110,7 @@ pub(super) fn digit_offsets(r: &mut Recorder, frame: &Frame, visible: VisibleClu
     let scan = Scan {
         pipelines: &frame.pipelines.accelerated().digit_offsets,
         items: frame.light_count.div_ceil(SORT_BLOCK) * SORT_DIGITS,
-        slot: Some(DISPATCH_SORT_SCAN),
+        size: Some(DISPATCH_SORT_SCAN),
         length: set(&[B::State]),
         summed: set(&[B::DigitCounts]),
         emits: set(&[B::DigitCounts]),
@@ -130,12 +130,12 @@ fn record(r: &mut Recorder, frame: &Frame, clustering: usize, scan: &Scan) {
         r.dispatch(&Dispatch { push, ..Dispatch::new(pipeline, frame.buffers(clustering), size, declared) });
     };
     if blocks <= MAX_SINGLE_BLOCKS {
-        run(&pipelines.single, Size::Groups(1, 1), items, emits | publishes);
+        run(&pipelines.single, Size::Workgroups(1, 1), items, emits | publishes);
         return;
     }
-    let size = scan.slot.map_or(Size::Groups(blocks, 1), Size::Indirect);
+    let size = scan.size.map_or(Size::Workgroups(blocks, 1), Size::Indirect);
     let sums = set(&[B::BlockSums]);
     run(&pipelines.reduce, size, items, sums);
-    run(&pipelines.block_offsets, Size::Groups(1, 1), length, sums | publishes);
+    run(&pipelines.block_offsets, Size::Workgroups(1, 1), length, sums | publishes);
     run(&pipelines.apply, size, items | sums, emits);
 }

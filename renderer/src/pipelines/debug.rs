@@ -15,11 +15,11 @@ use std::sync::Arc;
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Line {
-    /// One end, metres.
+    /// One end of the line, world space, metres.
     pub from: [f32; 3],
-    /// The other end, metres.
+    /// Other end of the line, world space, metres.
     pub to: [f32; 3],
-    /// Linear colour.
+    /// Linear colour of the line.
     pub tint: [f32; 3],
 }
 
@@ -38,9 +38,9 @@ pub struct DebugPipelines {
     pub pixel_clusters: [Arc<Pipeline>; 2],
     /// Lines: through everything, then where nothing hides them.
     pub lines: [Arc<Pipeline>; 2],
-    /// Influence volumes of lights.
+    /// Draws the influence volumes of lights.
     pub spheres: Arc<Pipeline>,
-    /// All of them, each once.
+    /// All pipelines, each once.
     pub all: Vec<Arc<Pipeline>>,
 }
 

@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// How a graphics pipeline uses depth and colour targets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Output {
-    /// Writes depth.
+    /// The pipeline writes depth alone.
     Depth,
     /// Tests depth; marks clusters.
     Marks(SurfaceKind),

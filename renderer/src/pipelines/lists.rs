@@ -12,7 +12,7 @@ struct Maker<'a> {
     variant: &'a Variant,
     /// Defines of shaders that build lists.
     defines: Defines,
-    /// The same of shaders that ask what a volume meets.
+    /// Defines of shaders that ask what a volume meets.
     tests: Defines,
 }
 
@@ -25,12 +25,12 @@ impl Maker<'_> {
         self.store.compute(path, &self.tests)
     }
 
-    /// Twice: with `define` 0 and 1.
+    /// A shader that builds lists, twice: with `define` 0 and 1.
     fn both(&mut self, path: &str, define: &'static str) -> Result<[Arc<Pipeline>; 2]> {
         twice(self.store, path, &self.defines, define)
     }
 
-    /// The same of a shader that asks what a volume meets.
+    /// A shader that asks what a volume meets, twice: with `define` 0 and 1.
     fn both_tests(&mut self, path: &str, define: &'static str) -> Result<[Arc<Pipeline>; 2]> {
         twice(self.store, path, &self.tests, define)
     }
@@ -87,7 +87,7 @@ pipelines! {
         compact: ScanPipelines = make.scan("SCAN_VISIBILITY");
         /// Every cluster as a visible one.
         list_clusters: Arc<Pipeline> = make.lists("cluster/list_clusters.comp");
-        /// Lights into clustering space.
+        /// Takes lights into clustering space.
         transform_lights: Arc<Pipeline> = make.lists("assign/transform_lights.comp");
         /// Empties what counting fills in any order.
         clear_lists: Arc<Pipeline> = make.lists("assign/clear_lists.comp");
@@ -97,13 +97,13 @@ pipelines! {
         read_masks: [Arc<Pipeline>; 2] = make.both("assign/read_masks.comp", "WRITE_LISTS");
         /// Prefix sum of the lengths of lists.
         light_offsets: ScanPipelines = make.scan("SCAN_LIST_LENGTHS");
-        /// Sorts the lists.
+        /// Sorts the lists of lights.
         sort_lists: Arc<Pipeline> = make.lists("assign/sort_lists.comp");
     }
 }
 
 pipelines! {
-    /// What assignment other than by brute force runs besides.
+    /// What hierarchy and scatter run more than brute force does.
     pub struct AcceleratedPipelines, made by accelerated with make {
         /// Marks the blocks that hold visible clusters.
         mark_blocks: Arc<Pipeline> = make.lists("cull/mark_blocks.comp");
@@ -115,8 +115,8 @@ pipelines! {
         list_candidates: Arc<Pipeline> = make.tests("cull/list_candidates.comp");
         /// Counts the candidates of each group of visible clusters, and lists them.
         scatter_groups: [Arc<Pipeline>; 2] = make.both("assign/scatter_groups.comp", "FILL_GROUPS");
-        /// Prefix sum of the tiles that the candidates of groups fill.
-        group_tiles: ScanPipelines = make.scan("SCAN_GROUPS");
+        /// Prefix sum of the packets that the candidates of groups fill.
+        group_packets: ScanPipelines = make.scan("SCAN_GROUPS");
         /// Counts the digits of each block of the sort.
         count_digits: Arc<Pipeline> = make.tests("build/count_digits.comp");
         /// Prefix sum of the digits' counts.

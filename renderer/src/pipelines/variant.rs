@@ -4,7 +4,7 @@ use super::Output;
 use crate::assign::{Assigner, Clusters, Marking};
 use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
-use crate::geometry::{Candidates, CellShape, Sharing, SphereTest};
+use crate::geometry::{CellShape, Separators, Sharing, SphereTest};
 use crate::lights::Attenuation;
 
 /// What a run's shaders are specialised for.
@@ -87,7 +87,7 @@ impl Variant {
             .with("COUNTERS", u32::from(self.counting))
     }
 
-    /// Those of shaders that build lists.
+    /// Definitions for shaders that build lists.
     pub(super) fn list_defines(&self) -> Defines {
         let assigner = match self.assigner {
             Assigner::Brute => "ASSIGN_BRUTE",
@@ -97,15 +97,15 @@ impl Variant {
         self.defines().with("ASSIGN", assigner)
     }
 
-    /// Those of shaders that ask what a sphere meets besides.
+    /// Definitions for shaders that ask what a sphere meets.
     pub(super) fn test_defines(&self) -> Defines {
         let boxes = self.cells == Some(CellShape::Box);
         let nearest = matches!(self.test, SphereTest::Exact | SphereTest::Box);
         // Planes are cheaper than the nearest point, but for boxes.
-        let half_spaces = self.test.asks(Candidates::HALF_SPACES) || nearest && !boxes;
+        let half_spaces = self.test.asks(Separators::HALF_SPACES) || nearest && !boxes;
         let [edges, nearest_vertex, normals, vertices] =
-            [Candidates::EDGES, Candidates::NEAREST_VERTEX, Candidates::NORMALS, Candidates::VERTICES]
-                .map(|candidates| self.test.asks(candidates));
+            [Separators::EDGES, Separators::NEAREST_VERTEX, Separators::NORMALS, Separators::VERTICES]
+                .map(|separators| self.test.asks(separators));
         self.list_defines()
             .with("TEST_HS", u32::from(half_spaces))
             .with("TEST_SAT_E", u32::from(edges))

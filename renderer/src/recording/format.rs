@@ -36,7 +36,7 @@ pub enum Format {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RecordingFile {
-    /// Version mark.
+    /// Mark of the format and its version.
     pub format: Format,
     /// Where the recording came from.
     pub source: Source,
@@ -52,7 +52,7 @@ pub struct RecordingFile {
     /// The head-mounted display; without one, there is one view with the frames' field of view.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hmd: Option<Hmd>,
-    /// One row a frame.
+    /// Head and eyes of each frame.
     pub frames: Vec<Frame>,
 }
 
@@ -60,7 +60,7 @@ pub struct RecordingFile {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Source {
-    /// For people: file, program, author.
+    /// Source of the recording, for people: file, program, author.
     pub text: String,
     /// Hex SHA-256 of the file it was made from, if it was made from one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -71,7 +71,7 @@ pub struct Source {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Hmd {
-    /// The device.
+    /// Name of the head-mounted display.
     pub name: String,
     /// In view order, at least one.
     pub eyes: Vec<Eye>,
@@ -81,7 +81,7 @@ pub struct Hmd {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Eye {
-    /// Names the view in images: letters, digits, `-` and `_`.
+    /// Name of the view in images: letters, digits, `-` and `_`.
     pub name: String,
     /// One row that holds for all frames, or one row a frame.
     pub rows: Vec<EyeRow>,
@@ -204,8 +204,8 @@ impl Hmd {
         }
     }
 
-    /// With one more eye, in the middle of the head, that sees in `mirror` all that the others see with their own
-    /// tangents.
+    /// This recording with one more eye, in the middle of the head, that sees in `mirror` all that the others see with
+    /// their own tangents.
     pub fn with_mirror(mut self, mirror: Mirror) -> Self {
         let tangents = self.eyes.iter().flat_map(|eye| &eye.rows).map(|row| row.tangents);
         let widest =

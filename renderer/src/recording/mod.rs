@@ -154,7 +154,7 @@ impl Recording {
         &self.name
     }
 
-    /// All fields.
+    /// All fields of the recording's file.
     pub fn file(&self) -> &RecordingFile {
         &self.file
     }
@@ -179,7 +179,7 @@ impl Recording {
         self.file.rain.as_ref()
     }
 
-    /// One name a view, in the order of [`Recording::views`].
+    /// Names of the views, in the order of [`Recording::views`].
     pub fn view_names(&self) -> Vec<&str> {
         match &self.file.hmd {
             Some(hmd) => hmd.eyes.iter().map(|eye| eye.name.as_str()).collect(),
@@ -239,12 +239,12 @@ fn of_frame<T>(rows: &[T], frame: u32) -> Option<&T> {
     if let [row] = rows { Some(row) } else { rows.get(frame as usize) }
 }
 
-/// The same plane with its normal's length, 1 within the format's tolerance, made 1.
+/// A mirror's plane with its normal's length, 1 within the format's tolerance, made 1.
 fn unit_mirror(mirror: &Mirror) -> Mirror {
     Mirror { normal: mirror.normal.normalize(), ..*mirror }
 }
 
-/// The same pose with its quaternion's length, 1 within the format's tolerance, made 1.
+/// A pose with its quaternion's length, 1 within the format's tolerance, made 1.
 fn unit(pose: &Pose) -> Pose {
     Pose { rotation: pose.rotation.normalize(), ..*pose }
 }

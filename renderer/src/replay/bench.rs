@@ -21,7 +21,7 @@ use crate::output::makes_lists;
 use crate::passes::readback;
 use serde::Serialize;
 
-/// What is timed.
+/// What `bench assign` times.
 #[derive(Debug, Clone)]
 pub struct AssignBench {
     /// Ways of assignment, all on each frame.
@@ -52,9 +52,9 @@ impl AssignBench {
 /// One measured way of assignment.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BenchRow {
-    /// How many lights.
+    /// Number of lights.
     pub lights: u32,
-    /// The method's name.
+    /// Name of the method.
     pub method: String,
     /// The way: `brute`, `hierarchy` or `scatter`.
     pub assign: String,
@@ -62,13 +62,14 @@ pub struct BenchRow {
     pub test: String,
     /// Frame of the recording.
     pub frame: u32,
-    /// Of all clusterings.
+    /// Visible clusters of all clusterings.
     pub visible_clusters: u64,
-    /// Of all clusterings.
+    /// Light indices of all clusterings.
     pub light_indices: u64,
-    /// Of all clusterings; of nodes too.
+    /// Tests of a light against a cluster or a node, of all clusterings.
     pub intersection_tests: u64,
-    /// From lights to lists: transform or culling, build, count, offsets and assign. Least of the repeats, milliseconds.
+    /// Time from lights to lists: transform or culling, build, count, offsets and assign. Least of the repeats,
+    /// milliseconds.
     pub gpu_ms: f64,
 }
 
@@ -179,7 +180,8 @@ impl TimedFrame<'_> {
 
     fn time(&self, session: &mut Session, engine: &mut Engine) -> Result<f64> {
         self.render(session, engine)?;
-        let times: Vec<f64> = session.slots[SLOT].timestamps.read()?.map(|(gpu_ms, _)| gpu_ms).collect();
+        let times: Vec<f64> =
+            session.frame_slots[SLOT].timestamps.read()?.map(|(gpu_ms, _)| gpu_ms).collect();
         Ok(engine.tree.paths().zip(times).filter(|(path, _)| makes_lists(path)).map(|(_, ms)| ms).sum())
     }
 }

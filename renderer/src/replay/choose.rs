@@ -46,7 +46,7 @@ fn count_once(
         lights,
         visible_clusters: state.visible_total,
         light_indices: state.index_total,
-        tiles: state.tiles,
+        packets: state.packets,
     };
     Ok(engine.states(session, SLOT).iter().map(counts).collect())
 }

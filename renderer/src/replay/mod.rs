@@ -78,7 +78,7 @@ impl Watch<'_> {
 
 /// Everything one run measured.
 pub struct RunResult {
-    /// A record a frame.
+    /// Record of each frame.
     pub counts: Vec<FrameCounts>,
     /// A record a frame and temporal run.
     pub times: Vec<FrameTimes>,
@@ -94,9 +94,9 @@ pub struct RunResult {
     pub device: DeviceInfo,
     /// How the machine fared in the temporal runs.
     pub conditions: Conditions,
-    /// When it began.
+    /// Time when the run began.
     pub started: SystemTime,
-    /// How long it took.
+    /// How long the run took.
     pub duration: Duration,
 }
 

@@ -4,7 +4,7 @@
 use super::Watch;
 use super::tracer::Tracer;
 use crate::Result;
-use crate::clustering::SLOTS;
+use crate::clustering::FRAME_SLOTS;
 use crate::engine::{Engine, FramePlan, Session, nothing};
 use crate::lights::LightSource;
 use crate::measure::{FrameTimes, StageTime};
@@ -26,10 +26,10 @@ pub fn time_run(
     watch: &Watch,
 ) -> Result<Vec<FrameTimes>> {
     let mut samples = Samples::default();
-    let mut in_flight: [Option<usize>; SLOTS] = [None; SLOTS];
+    let mut in_flight: [Option<usize>; FRAME_SLOTS] = [None; FRAME_SLOTS];
     let mut next = 0;
     while next < plans.len() || in_flight.iter().any(Option::is_some) {
-        let slot = next % SLOTS;
+        let slot = next % FRAME_SLOTS;
         if let Some(ended) = in_flight[slot].take()
             && collect(engine, session, (slot, &plans[ended]), &mut samples, (run, tracer))?
         {
@@ -62,20 +62,20 @@ fn collect(
     samples: &mut Samples,
     (run, tracer): (u32, &mut Tracer),
 ) -> Result<bool> {
-    session.slots[slot].wait()?;
+    session.frame_slots[slot].wait()?;
     if engine.overflowed(session, slot) {
         return engine.grow_if_needed(session, slot, plan.frame);
     }
     samples.frames.push(plan.frame);
-    samples.times.extend(session.slots[slot].timestamps.read()?);
-    tracer.keep(run, plan.frame, session.slots[slot].timestamps.spans());
+    samples.times.extend(session.frame_slots[slot].timestamps.read()?);
+    tracer.keep(run, plan.frame, session.frame_slots[slot].timestamps.spans());
     Ok(false)
 }
 
-fn abandon(session: &Session, in_flight: &mut [Option<usize>; SLOTS]) -> Result<()> {
+fn abandon(session: &Session, in_flight: &mut [Option<usize>; FRAME_SLOTS]) -> Result<()> {
     for (slot, frame) in in_flight.iter_mut().enumerate() {
         if frame.take().is_some() {
-            session.slots[slot].wait()?;
+            session.frame_slots[slot].wait()?;
         }
     }
     Ok(())

@@ -30,8 +30,8 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// All of it on two clocks. That of the host starts with the first stage. That of the device cannot be compared
-    /// with it; its first stage is put where the first frame's recording ended, before which it did not run.
+    /// The whole trace on two clocks. That of the host starts with the first stage. That of the device cannot be
+    /// compared with it; its first stage is put where the first frame's recording ended, before which it did not run.
     pub fn finish(self, tree: &ScopeTree, limits: &Limits) -> Vec<FrameTrace> {
         let Some(first) = self.spans.first() else { return vec![] };
         let cpu_origin = first.cpu_start;

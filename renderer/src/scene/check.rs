@@ -63,8 +63,8 @@ impl Scene {
             if texture.image as usize >= self.images.len() {
                 return Err(format!("uses image {}, which is not there", texture.image));
             }
-            if texture.uv_slot > 1 {
-                return Err(format!("uses texture coordinate slot {}; there are two", texture.uv_slot));
+            if texture.uv_set > 1 {
+                return Err(format!("uses texture coordinate set {}; there are two", texture.uv_set));
             }
             if !finite(texture.uv_transform.as_flattened()) {
                 return Err("has a texture transform that is not finite".into());

@@ -9,15 +9,15 @@ use super::{AlphaMode, Scene};
 /// Counts, sizes and bounds of a [`Scene`]; [`fmt::Display`] prints it as text.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SceneSummary {
-    /// As [`Scene::name`].
+    /// Name of the scene, as [`Scene::name`].
     pub name: String,
-    /// As [`Scene::sha256`].
+    /// Hash of the scene's files, as [`Scene::sha256`].
     pub sha256: String,
     /// Triangles drawn, instances counted each time.
     pub triangles: u64,
     /// Triangles in memory, each counted once.
     pub stored_triangles: u64,
-    /// Vertices in memory.
+    /// Number of vertices in memory.
     pub vertices: u64,
     /// Index ranges with a material each.
     pub primitives: u64,
@@ -25,39 +25,39 @@ pub struct SceneSummary {
     pub instances: u64,
     /// Materials by alpha mode.
     pub materials: MaterialCounts,
-    /// Textures that materials use.
+    /// Number of textures that materials use.
     pub textures: u64,
-    /// In the order of [`Scene::images`].
+    /// Images in the order of [`Scene::images`].
     pub images: Vec<ImageSummary>,
-    /// Bytes of all images with their mips.
+    /// Size in bytes of all images with their mips.
     pub image_bytes: u64,
-    /// Point lights.
+    /// Number of point lights.
     pub lights: u64,
-    /// World-space bounds, metres.
+    /// Bounds in world space, metres; `None` where nothing is drawn.
     pub bounds: Option<BoundsSummary>,
-    /// As [`Scene::warnings`].
+    /// What was left out or stood in, as [`Scene::warnings`].
     pub warnings: Vec<String>,
 }
 
 /// How many materials have each alpha mode.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct MaterialCounts {
-    /// Alpha ignored.
+    /// Materials whose alpha is ignored.
     pub opaque: u64,
-    /// Alpha tested.
+    /// Materials whose alpha is tested.
     pub mask: u64,
-    /// Blended.
+    /// Materials that are blended.
     pub blend: u64,
 }
 
-/// One image.
+/// One image of the scene.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct ImageSummary {
-    /// As [`super::Image::name`].
+    /// Name of the image, as [`super::Image::name`].
     pub name: String,
-    /// Texels.
+    /// Width, texels.
     pub width: u32,
-    /// Texels.
+    /// Height, texels.
     pub height: u32,
     /// Levels, the image itself included.
     pub mips: u64,
@@ -68,9 +68,9 @@ pub struct ImageSummary {
 /// World-space corners, metres.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct BoundsSummary {
-    /// Lowest corner.
+    /// Lowest corner, metres.
     pub min: [f64; 3],
-    /// Highest corner.
+    /// Highest corner, metres.
     pub max: [f64; 3],
 }
 

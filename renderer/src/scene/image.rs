@@ -30,7 +30,7 @@ pub enum Content {
         /// 8-bit alpha cut-off of the masked material that reads it: its mips keep the share of texels above.
         cutoff: Option<u8>,
     },
-    /// Linear numbers.
+    /// Linear numbers, of which none is a direction.
     Data,
     /// A tangent-space normal: its mips stay unit vectors.
     Normal,
@@ -53,11 +53,11 @@ impl Image {
 /// An image file as it lies in memory.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Encoded<'a> {
-    /// What it is called in messages and in [`Image::name`].
+    /// Name of the image in messages and in [`Image::name`].
     pub name: &'a str,
     /// The file to blame if it is broken.
     pub file: &'a Path,
-    /// One of [`KINDS`].
+    /// Content of the file, in one of [`KINDS`].
     pub bytes: &'a [u8],
 }
 
@@ -77,11 +77,11 @@ impl Encoded<'_> {
 
 /// A decoded image.
 pub(super) struct Pixels {
-    /// Width, height.
+    /// Width and height, texels.
     pub size: [u32; 2],
     /// The file had an alpha channel; of formats that always have one, whether anything is not opaque.
     pub has_alpha: bool,
-    /// Row-major RGBA.
+    /// Texels, row-major RGBA.
     pub texels: Vec<u8>,
 }
 

@@ -14,7 +14,7 @@ pub(super) struct Mesh {
     pub vertices: Vec<Vertex>,
     /// Three a triangle, all below the number of vertices.
     pub indices: Vec<u32>,
-    /// Into [`Scene::materials`].
+    /// Index into [`Scene::materials`].
     pub material: u32,
 }
 

@@ -25,13 +25,13 @@ use crate::{Error, Result};
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct Vertex {
-    /// Object-space position, metres.
+    /// Position in object space, metres.
     pub position: [f32; 3],
-    /// Object-space unit normal.
+    /// Unit normal in object space.
     pub normal: [f32; 3],
     /// Object-space unit tangent and, in w, the sign of the bitangent (glTF convention).
     pub tangent: [f32; 4],
-    /// Two texture coordinate sets; [`TextureRef::uv_slot`] picks one.
+    /// Two texture coordinate sets; [`TextureRef::uv_set`] picks one.
     pub uv: [[f32; 2]; 2],
     /// Linear vertex colour and alpha, 8-bit unorm.
     pub color: [u8; 4],
@@ -40,9 +40,9 @@ pub struct Vertex {
 /// Axis-aligned bounds, metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
-    /// Lowest corner.
+    /// Lowest corner of the box.
     pub min: Vec3,
-    /// Highest corner.
+    /// Highest corner of the box.
     pub max: Vec3,
 }
 
@@ -51,22 +51,22 @@ pub struct Bounds {
 pub struct Primitive {
     /// First of its indices in [`Scene::indices`].
     pub first_index: u32,
-    /// How many indices; triangles, so a multiple of three.
+    /// Number of indices; they make triangles, so it is a multiple of three.
     pub index_count: u32,
-    /// Added to every index.
+    /// What is added to every index to find its vertex.
     pub vertex_offset: u32,
-    /// How many vertices it owns from `vertex_offset` on.
+    /// Number of vertices from `vertex_offset` on that the primitive owns.
     pub vertex_count: u32,
-    /// Into [`Scene::materials`].
+    /// Index into [`Scene::materials`].
     pub material: u32,
-    /// Object-space bounds.
+    /// Bounds of the primitive in object space.
     pub bounds: Bounds,
 }
 
 /// A primitive placed in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Instance {
-    /// Into [`Scene::primitives`].
+    /// Index into [`Scene::primitives`].
     pub primitive: u32,
     /// Affine transform; may mirror (negative determinant). In f64: a place far from the world's origin must not move by
     /// the rounding of f32.
@@ -84,18 +84,18 @@ pub enum AlphaMode {
     Blend,
 }
 
-/// Which of a material's five textures.
+/// Place of a texture among the five of a material.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TextureSlot {
-    /// sRGB colour times alpha.
+    /// Base colour and alpha, sRGB.
     BaseColor = 0,
     /// Linear: roughness in G, metalness in B.
     MetallicRoughness = 1,
-    /// Linear: tangent-space normal.
+    /// Tangent-space normal, linear.
     Normal = 2,
-    /// Linear: occlusion in R.
+    /// Occlusion in R, linear.
     Occlusion = 3,
-    /// sRGB radiance.
+    /// Radiance, sRGB.
     Emissive = 4,
 }
 
@@ -104,11 +104,11 @@ pub enum TextureSlot {
 pub struct Material {
     /// Name in the source, for messages and debug labels.
     pub name: String,
-    /// Linear colour and alpha.
+    /// Linear base colour and alpha.
     pub base_color: [f32; 4],
     /// 0 dielectric to 1 metal.
     pub metallic: f32,
-    /// Perceptual roughness, 0 to 1.
+    /// Perceptual roughness of the surface, 0 to 1.
     pub roughness: f32,
     /// Linear radiance, emissive strength multiplied in.
     pub emissive: [f32; 3],
@@ -116,7 +116,7 @@ pub struct Material {
     pub normal_scale: f32,
     /// 0 no occlusion to 1 full.
     pub occlusion_strength: f32,
-    /// Opaque, masked or blended.
+    /// Whether the material is opaque, masked or blended.
     pub alpha_mode: AlphaMode,
     /// Below this alpha a masked fragment is discarded.
     pub alpha_cutoff: f32,
@@ -124,19 +124,19 @@ pub struct Material {
     pub double_sided: bool,
     /// Radiates its base colour and is not lit (KHR_materials_unlit).
     pub unlit: bool,
-    /// By [`TextureSlot`].
+    /// Textures by [`TextureSlot`].
     pub textures: [Option<TextureRef>; 5],
 }
 
 /// A texture as a material uses it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TextureRef {
-    /// Into [`Scene::images`].
+    /// Index into [`Scene::images`].
     pub image: u32,
-    /// Filter and wrap modes.
+    /// How texels are filtered, and coordinates wrapped.
     pub sampler: Sampler,
-    /// Which of [`Vertex::uv`], 0 or 1.
-    pub uv_slot: u32,
+    /// Index into [`Vertex::uv`], 0 or 1.
+    pub uv_set: u32,
     /// Rows of the affine map applied to the coordinates: u' = row0 . (u, v, 1), v' = row1 . (u, v, 1).
     pub uv_transform: [[f32; 3]; 2],
 }
@@ -144,20 +144,20 @@ pub struct TextureRef {
 /// Filter and wrap modes of one texture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Sampler {
-    /// Horizontal and vertical.
+    /// How coordinates beyond 0..1 are read, horizontally and vertically.
     pub wrap: [Wrap; 2],
     /// Nearest instead of (anisotropic, mip-mapped) linear filtering.
     pub nearest: bool,
 }
 
-/// What lies outside 0..1.
+/// What a texture shows outside of coordinates 0..1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Wrap {
-    /// Tiles.
+    /// The image is repeated.
     Repeat,
     /// Tiles, every other one mirrored.
     Mirror,
-    /// The edge goes on.
+    /// The edge of the image goes on.
     Clamp,
 }
 
@@ -166,9 +166,9 @@ pub enum Wrap {
 pub struct Image {
     /// File name or name in the source.
     pub name: String,
-    /// Texels.
+    /// Width, texels.
     pub width: u32,
-    /// Texels.
+    /// Height, texels.
     pub height: u32,
     /// RGB is sRGB-encoded (else linear); alpha is always linear. Mips are averaged in linear light.
     pub srgb: bool,
@@ -179,7 +179,7 @@ pub struct Image {
 /// A point light that a scene brings along (KHR_lights_punctual).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneLight {
-    /// World position, metres.
+    /// Place of the light in the world, metres.
     pub position: Vec3,
     /// Linear colour, as in the file.
     pub color: [f32; 3],
@@ -190,7 +190,7 @@ pub struct SceneLight {
 }
 
 impl SceneLight {
-    /// Whether all its numbers are finite.
+    /// Whether all numbers of the light are finite.
     pub(crate) fn is_finite(&self) -> bool {
         let numbers = [self.intensity, self.range.unwrap_or_default()];
         self.position.is_finite() && self.color.iter().chain(&numbers).all(|x| x.is_finite())
@@ -204,7 +204,7 @@ pub struct Scene {
     pub name: String,
     /// Hex SHA-256 over the source bytes (all files read, in order), or over generator name and version.
     pub sha256: String,
-    /// All primitives' vertices.
+    /// Vertices of all primitives.
     pub vertices: Vec<Vertex>,
     /// All primitives' indices, relative to [`Primitive::vertex_offset`].
     pub indices: Vec<u32>,
@@ -212,7 +212,7 @@ pub struct Scene {
     pub primitives: Vec<Primitive>,
     /// What is drawn, in source order.
     pub instances: Vec<Instance>,
-    /// At least one (a default is made where the source has none).
+    /// Materials, at least one (a default is made where the source has none).
     pub materials: Vec<Material>,
     /// Decoded images; one used both as colour and as data appears twice.
     pub images: Vec<Image>,
@@ -231,7 +231,7 @@ pub fn load(path: &Path) -> Result<Scene> {
     read(path, false)
 }
 
-/// The same, but the first odd line of an OBJ or MTL file is an error.
+/// Loads a scene as [`load`] does, but the first odd line of an OBJ or MTL file is an error.
 ///
 /// # Errors
 /// As [`load`].

@@ -107,7 +107,7 @@ impl bevy_mikktspace::Geometry for Corners<'_> {
 fn transformed_uvs(vertices: &[Vertex], texture: &TextureRef) -> Vec<Vec2> {
     let rows = texture.uv_transform.map(Vec3::from);
     let uv = |vertex: &Vertex| {
-        let uv = Vec2::from(vertex.uv[texture.uv_slot as usize]).extend(1.0);
+        let uv = Vec2::from(vertex.uv[texture.uv_set as usize]).extend(1.0);
         Vec2::from(rows.map(|row| row.dot(uv)))
     };
     vertices.iter().map(uv).collect()
@@ -143,7 +143,7 @@ mod tests {
 
     fn reading(uv_transform: [[f32; 3]; 2]) -> TextureRef {
         let sampler = Sampler { wrap: [Wrap::Repeat; 2], nearest: false };
-        TextureRef { image: 0, sampler, uv_slot: 0, uv_transform }
+        TextureRef { image: 0, sampler, uv_set: 0, uv_transform }
     }
 
     #[test]

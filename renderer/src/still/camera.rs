@@ -24,9 +24,9 @@ pub enum Viewpoint<'a> {
 /// A camera placed by hand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placed {
-    /// Where it is, world space, metres.
+    /// Place of the camera, world space, metres.
     pub eye: DVec3,
-    /// What it looks at, world space, metres.
+    /// Place that the camera looks at, world space, metres.
     pub target: DVec3,
     /// Field of view along the longer side, radians.
     pub fov: f64,
@@ -113,7 +113,7 @@ impl Camera {
         )))
     }
 
-    /// Its name, given those of the views.
+    /// Name of the camera, given those of the views.
     pub fn name(self, views: &[String]) -> String {
         match self {
             Self::View(view) => views[view].clone(),
@@ -125,9 +125,9 @@ impl Camera {
 
 /// The bird's eye stands this far beside, above and behind the head, in reaches.
 const PLACE: DVec3 = DVec3::new(0.35, 0.8, 0.5);
-/// It looks at the point this far ahead of the head, in reaches.
+/// The camera from above looks at the point this far ahead of the head, in reaches.
 const TARGET: f64 = 0.35;
-/// Its field of view along the longer side, radians.
+/// Field of view of the camera from above along the longer side, radians.
 const FOV: f64 = 1.2;
 
 /// A camera behind and above the head of `views`, level with the horizon, that sees what lies up to `reach` metres

@@ -64,11 +64,11 @@ pub enum Base {
 /// All that a still shows.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Show {
-    /// On surfaces.
+    /// What surfaces show.
     pub base: Base,
     /// Lines of frusta and boxes.
     pub frusta: bool,
-    /// Volumes of lights.
+    /// Whether volumes of lights are shown.
     pub lights: bool,
     /// Magenta where there is no cluster.
     pub missing: bool,
@@ -124,7 +124,7 @@ impl Show {
 pub struct Still {
     /// Name of the camera.
     pub view: String,
-    /// As a display shows it.
+    /// Picture as a display shows it.
     pub image: RgbImage,
     /// Colour in linear light, and everything known of the pixels.
     pub pixels: ViewPixels,

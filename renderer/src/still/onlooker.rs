@@ -21,30 +21,30 @@ use glam::DVec3;
 use half::f16;
 use image::RgbImage;
 
-/// One who looks.
+/// One who looks at a frame from somewhere.
 pub struct Onlooker<'a> {
     /// How the frame was rendered: the configuration of its run.
     pub run: &'a Config,
     /// Names of the recording's views.
     pub names: &'a [String],
-    /// The frame.
+    /// The frame that is looked at.
     pub plan: &'a FramePlan,
-    /// From where.
+    /// Camera that looks.
     pub camera: Camera,
-    /// At what.
+    /// What the picture shows.
     pub show: Show,
 }
 
 /// What an onlooker sees.
 pub struct Seen {
-    /// As a display shows it.
+    /// Picture as a display shows it.
     pub image: RgbImage,
     /// Colour in linear light, and everything known of the pixels.
     pub pixels: ViewPixels,
 }
 
 impl<'a> Onlooker<'a> {
-    /// One who sees clusters and frusta from above (Gelderen figure 4.8).
+    /// An onlooker who sees clusters and frusta from above (Gelderen figure 4.8).
     pub fn birdseye(run: &'a Config, names: &'a [String], plan: &'a FramePlan) -> Self {
         let show = Show { base: Base::Clusters, frusta: true, ..Show::default() };
         Self { run, names, plan, camera: Camera::BirdsEye, show }
@@ -102,7 +102,7 @@ impl<'a> Onlooker<'a> {
         let (view, lookup, clusterings) = match self.camera {
             Camera::View(view) => (view, 0, vec![sharing.clustering_of(view)]),
             Camera::BirdsEye | Camera::Placed(_) => {
-                let slot = &mut session.slots[SLOT];
+                let slot = &mut session.frame_slots[SLOT];
                 slot.mirrored[0] = false;
                 let near = eye.relative_to(origin);
                 let data = view_data(&near, None, self.run.resolution, session.scene.reach);

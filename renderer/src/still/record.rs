@@ -6,23 +6,23 @@ use crate::pipelines::DebugPipelines;
 use crate::targets::TargetName;
 use crate::vk::Buffer;
 
-/// What is drawn.
+/// What is drawn for an onlooker.
 pub struct Drawing<'a> {
-    /// With what.
+    /// Pipelines of overlays and maps.
     pub pipelines: &'a DebugPipelines,
-    /// The slot of the camera among the views.
+    /// Index of the camera among the views.
     pub view: usize,
-    /// Which of [`DebugPipelines::pixel_clusters`] looks pixels up; `None` where there are no clusters.
+    /// Index into [`DebugPipelines::pixel_clusters`] of what looks pixels up; `None` where there are no clusters.
     pub lookup: Option<usize>,
-    /// In which clusterings.
+    /// Clusterings that pixels are looked up in.
     pub clusterings: Vec<usize>,
-    /// Vertex buffer of [`crate::pipelines::Line`], and how many.
+    /// Vertex buffer of [`crate::pipelines::Line`], and how many lines it holds.
     pub lines: Option<(&'a Buffer, u32)>,
     /// Whether the lights' volumes are drawn.
     pub spheres: bool,
 }
 
-/// Where results go.
+/// Buffers that results go to.
 pub struct Outputs<'a> {
     /// Colours of the surfaces.
     pub clay: &'a Buffer,

@@ -24,9 +24,9 @@ pub enum Memory {
 
 /// A buffer with its memory; host memory is mapped and coherent.
 pub struct Buffer {
-    /// For commands and descriptors.
+    /// Vulkan handle, for commands and descriptors.
     pub handle: vk::Buffer,
-    /// Bytes, at least 16.
+    /// Size in bytes, at least 16.
     pub size: u64,
     name: String,
     allocation: Option<Allocation>,
@@ -108,7 +108,7 @@ impl Buffer {
         Ok(())
     }
 
-    /// As it was made with, for messages.
+    /// Name that the buffer was made with, for messages.
     pub(super) fn name(&self) -> &str {
         &self.name
     }
@@ -187,7 +187,7 @@ impl Drop for Buffer {
 /// The most that one upload stages at a time, bytes.
 pub(super) const STAGING_BYTES: usize = 64 << 20;
 
-/// Everything before is visible to everything after.
+/// Records a barrier that makes everything before visible to everything after.
 pub(super) fn full_barrier(context: &Context, cmd: vk::CommandBuffer) {
     let all = [vk::MemoryBarrier2::default()
         .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)

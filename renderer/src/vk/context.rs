@@ -1,6 +1,6 @@
 //! The chosen device with its queue, allocator and diagnostics.
 
-use super::device::{Candidate, candidates, choose};
+use super::device::{FoundDevice, choose, found_devices};
 use super::features::Features;
 use super::instance::{Instance, driver_lock};
 use super::limits::{DeviceInfo, Limits};
@@ -28,11 +28,11 @@ pub struct Context {
     pub device: ash::Device,
     /// The one queue, for graphics, compute and transfer. [`Context::submit`] takes its lock.
     pub queue: vk::Queue,
-    /// Family of [`Context::queue`].
+    /// Queue family of [`Context::queue`].
     pub queue_family: u32,
     /// What the device can hold.
     pub limits: Limits,
-    /// Name, driver and hardware.
+    /// Name, driver and hardware of the device.
     pub info: DeviceInfo,
     physical: vk::PhysicalDevice,
     debug: Option<ext::debug_utils::Device>,
@@ -51,7 +51,7 @@ impl Context {
     /// [`Error::Input`] when no device has the name or index.
     pub fn new(options: &DeviceOptions) -> Result<Arc<Self>> {
         let instance = Instance::new(options.validate)?;
-        let chosen = choose(candidates(&instance)?, options.device.as_deref())?;
+        let chosen = choose(found_devices(&instance)?, options.device.as_deref())?;
         let device = create_device(&instance.handle, &chosen)?;
         let mut context = Self {
             queue: unsafe { device.get_device_queue(chosen.queue_family, 0) },
@@ -147,7 +147,7 @@ impl Context {
     /// Refuses a device on which nothing can be timed.
     ///
     /// # Errors
-    /// It has no timestamps.
+    /// The queue has no timestamps.
     pub fn require_timestamps(&self) -> Result<()> {
         if self.limits.timestamp_valid_bits > 0 {
             return Ok(());
@@ -258,7 +258,7 @@ impl Drop for Context {
     }
 }
 
-fn create_device(instance: &ash::Instance, chosen: &Candidate) -> Result<ash::Device> {
+fn create_device(instance: &ash::Instance, chosen: &FoundDevice) -> Result<ash::Device> {
     let queues = [vk::DeviceQueueCreateInfo::default()
         .queue_family_index(chosen.queue_family)
         .queue_priorities(&[1.0])];

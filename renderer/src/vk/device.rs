@@ -10,7 +10,7 @@ use serde::Serialize;
 use std::fmt;
 
 /// A physical device with what is known of it.
-pub(super) struct Candidate {
+pub(super) struct FoundDevice {
     pub physical: vk::PhysicalDevice,
     pub info: DeviceInfo,
     pub limits: Limits,
@@ -23,7 +23,7 @@ pub(super) struct Candidate {
 ///
 /// # Errors
 /// [`Error::Device`] when there is none.
-pub(super) fn candidates(instance: &Instance) -> Result<Vec<Candidate>> {
+pub(super) fn found_devices(instance: &Instance) -> Result<Vec<FoundDevice>> {
     let physical_devices = unsafe { instance.handle.enumerate_physical_devices() }.map_err(|e| match e {
         // So the loader says that of the installed drivers none finds a device it can serve.
         vk::Result::ERROR_INITIALIZATION_FAILED | vk::Result::ERROR_INCOMPATIBLE_DRIVER => no_device(),
@@ -32,10 +32,10 @@ pub(super) fn candidates(instance: &Instance) -> Result<Vec<Candidate>> {
     if physical_devices.is_empty() {
         return Err(no_device());
     }
-    Ok(physical_devices.into_iter().map(|physical| candidate(&instance.handle, physical)).collect())
+    Ok(physical_devices.into_iter().map(|physical| found_device(&instance.handle, physical)).collect())
 }
 
-fn candidate(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Candidate {
+fn found_device(instance: &ash::Instance, physical: vk::PhysicalDevice) -> FoundDevice {
     let info = read_info(instance, physical);
     let version = unsafe { instance.get_physical_device_properties(physical) }.api_version;
     let family = queue_family(instance, physical);
@@ -48,7 +48,7 @@ fn candidate(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Candidat
         (!missing.is_empty()).then(|| format!("it lacks {}", missing.join(", ")))
     };
     let queue_family = family.unwrap_or(0);
-    Candidate {
+    FoundDevice {
         physical,
         info,
         limits: read_limits(instance, physical, queue_family),
@@ -69,13 +69,13 @@ fn queue_family(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Optio
 ///
 /// # Errors
 /// [`Error::Input`] when `wanted` fits no device, [`Error::Device`] when there is none or none is usable.
-pub(super) fn choose(mut candidates: Vec<Candidate>, wanted: Option<&str>) -> Result<Candidate> {
-    let names: Vec<_> = candidates.iter().map(|c| (c.info.clone(), c.unusable.clone())).collect();
+pub(super) fn choose(mut found_devices: Vec<FoundDevice>, wanted: Option<&str>) -> Result<FoundDevice> {
+    let names: Vec<_> = found_devices.iter().map(|c| (c.info.clone(), c.unusable.clone())).collect();
     let index = match wanted {
         Some(wanted) => find(&names, wanted)?,
         None => best(&names)?,
     };
-    let chosen = candidates.swap_remove(index);
+    let chosen = found_devices.swap_remove(index);
     match chosen.unusable {
         Some(reason) => {
             Err(Error::Device(format!("device {index} ({}) cannot be used: {reason}", chosen.info.name)))
@@ -133,14 +133,14 @@ fn roll(devices: &[Named]) -> String {
 /// One line of a [`DeviceListing`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ListedDevice {
-    /// What `--device` takes.
+    /// Index that `--device` takes.
     pub index: usize,
-    /// Name and driver.
+    /// Name and driver of the device.
     #[serde(flatten)]
     pub info: DeviceInfo,
     /// Why it cannot run the renderer, if so.
     pub unusable: Option<String>,
-    /// What it can hold.
+    /// Limits of what the device can hold.
     pub limits: Limits,
 }
 
@@ -148,7 +148,7 @@ pub struct ListedDevice {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct DeviceListing {
-    /// In the loader's order, which `--device INDEX` counts by.
+    /// Devices in the loader's order, which `--device INDEX` counts by.
     pub devices: Vec<ListedDevice>,
 }
 
@@ -224,7 +224,7 @@ impl fmt::Display for ListedDevice {
 /// [`Error::Device`] when the Vulkan loader, every driver or every device is missing.
 pub fn list_devices() -> Result<Vec<(DeviceInfo, Limits, Option<String>)>> {
     let instance = Instance::new(false)?;
-    Ok(candidates(&instance)?.into_iter().map(|c| (c.info, c.limits, c.unusable)).collect())
+    Ok(found_devices(&instance)?.into_iter().map(|c| (c.info, c.limits, c.unusable)).collect())
 }
 
 #[cfg(test)]

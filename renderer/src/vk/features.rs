@@ -49,7 +49,7 @@ impl Features {
 
     /// The names of the required features that are not offered, in specification spelling.
     ///
-    /// `maintenance4` (work group sizes by specialization constant) and `shaderTerminateInvocation` (`discard`) are
+    /// `maintenance4` (workgroup sizes by specialization constant) and `shaderTerminateInvocation` (`discard`) are
     /// what SPIR-V 1.6 from GLSL uses.
     pub fn missing(&self) -> Vec<&'static str> {
         let required = [

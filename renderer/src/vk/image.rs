@@ -11,21 +11,21 @@ use std::sync::Arc;
 /// What kind of image to make.
 #[derive(Debug, Clone, Copy)]
 pub struct ImageDesc {
-    /// Texels.
+    /// Width, texels.
     pub width: u32,
-    /// Texels.
+    /// Height, texels.
     pub height: u32,
     /// Levels, at least 1.
     pub mip_levels: u32,
     /// Layers, at least 1.
     pub layers: u32,
-    /// Texel format.
+    /// Format of a texel.
     pub format: vk::Format,
-    /// Samples a texel.
+    /// Number of samples a texel.
     pub samples: vk::SampleCountFlags,
-    /// Everything it is used for.
+    /// Everything that the image is used for.
     pub usage: vk::ImageUsageFlags,
-    /// What its view shows.
+    /// Aspect that the image's view shows.
     pub aspect: vk::ImageAspectFlags,
 }
 
@@ -47,21 +47,21 @@ impl Default for ImageDesc {
 
 /// A device-local image with its memory, a view of all its levels and layers, and one of each layer. Its layout starts as UNDEFINED.
 pub struct Image {
-    /// For commands.
+    /// Vulkan handle, for commands.
     pub handle: vk::Image,
     /// All levels and layers, of [`Image::aspect`]; an array where there are several layers.
     pub view: vk::ImageView,
     /// All levels of each layer.
     pub layer_views: Vec<vk::ImageView>,
-    /// Texel format.
+    /// Format of a texel.
     pub format: vk::Format,
     /// Size of level 0, texels.
     pub extent: vk::Extent2D,
-    /// Levels.
+    /// Number of mip levels.
     pub mip_levels: u32,
-    /// Layers.
+    /// Number of layers.
     pub layers: u32,
-    /// Samples a texel.
+    /// Number of samples a texel.
     pub samples: vk::SampleCountFlags,
     /// What the view shows.
     pub aspect: vk::ImageAspectFlags,

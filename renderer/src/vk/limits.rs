@@ -9,15 +9,15 @@ use std::ffi::CStr;
 /// Name and driver of a device, as recorded with every run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct DeviceInfo {
-    /// As the driver gives it.
+    /// Name of the device as the driver gives it.
     pub name: String,
-    /// Driver name.
+    /// Name of the driver.
     pub driver: String,
     /// The driver's own version text, or its packed number where it gives none.
     pub driver_version: String,
-    /// Highest Vulkan version, `major.minor.patch`.
+    /// Highest Vulkan version that the device has, `major.minor.patch`.
     pub api_version: String,
-    /// What tells it from others of its name.
+    /// What tells the device from others of its name.
     #[serde(flatten)]
     pub hardware: Device,
 }
@@ -45,13 +45,13 @@ pub struct Limits {
     pub max_uniform_buffer_range: u64,
     /// Bytes of push constants.
     pub max_push_constants_size: u32,
-    /// Work groups of one dispatch, per axis.
+    /// Workgroups of one dispatch, per axis.
     pub max_compute_work_group_count: [u32; 3],
-    /// Invocations of a work group, per axis.
+    /// Invocations of a workgroup, per axis.
     pub max_compute_work_group_size: [u32; 3],
-    /// Invocations of a work group.
+    /// Invocations of a workgroup.
     pub max_compute_work_group_invocations: u32,
-    /// Bytes of shared memory of a work group.
+    /// Bytes of shared memory of a workgroup.
     pub max_compute_shared_memory: u32,
     /// Storage buffers that one shader stage may bind.
     pub max_per_stage_storage_buffers: u32,

@@ -11,7 +11,7 @@ const ENTRY_POINT: &CStr = c"main";
 
 /// A pipeline that destroys itself. Its layout is the caller's.
 pub struct Pipeline {
-    /// For binding.
+    /// Vulkan handle, for binding.
     pub handle: vk::Pipeline,
     context: Arc<Context>,
 }
@@ -40,7 +40,7 @@ pub fn compute_pipeline(
     finish(context, made, name)
 }
 
-/// What a graphics pipeline does besides its shaders. Start from [`Default`].
+/// What a graphics pipeline does but for its shaders. Start from [`Default`].
 #[derive(Clone, Copy)]
 pub struct GraphicsDesc<'a> {
     /// SPIR-V of the vertex shader.
@@ -49,9 +49,9 @@ pub struct GraphicsDesc<'a> {
     pub fragment: Option<&'a [u32]>,
     /// Specialization constants of both stages, as in [`compute_pipeline`].
     pub spec: &'a [(u32, u32)],
-    /// Vertex buffers.
+    /// Layouts of the vertex buffers.
     pub bindings: &'a [vk::VertexInputBindingDescription],
-    /// Vertex attributes.
+    /// Attributes read from the vertex buffers.
     pub attributes: &'a [vk::VertexInputAttributeDescription],
     /// Faces left out. Counter-clockwise is front.
     pub cull_mode: vk::CullModeFlags,

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 /// A whole buffer as texels of one format.
 pub struct TexelView {
-    /// For descriptors.
+    /// Vulkan handle, for descriptors.
     pub handle: vk::BufferView,
     context: Arc<Context>,
 }
@@ -47,7 +47,8 @@ impl Drop for TexelView {
     }
 }
 
-/// Bytes of a texel. Every device has buffers of these formats, or images (Vulkan 1.3, "Required Format Support").
+/// Size in bytes of a texel. Every device has buffers of these formats, or images (Vulkan 1.3, "Required Format
+/// Support").
 pub fn texel_bytes(format: vk::Format) -> u64 {
     match format {
         vk::Format::R32_UINT => 4,

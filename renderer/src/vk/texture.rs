@@ -29,7 +29,7 @@ pub(super) struct Most {
     pub side: u32,
 }
 
-/// [`upload_textures`] within bounds.
+/// Uploads as [`upload_textures`] does, within bounds of memory.
 pub(super) fn upload_in_chunks(
     context: &Arc<Context>,
     images: &[scene::Image],
@@ -74,12 +74,12 @@ pub(super) fn upload_in_chunks(
 /// The mip levels of an image that a device takes.
 struct Levels<'a> {
     image: &'a scene::Image,
-    /// The first of them.
+    /// Index of the first level that is uploaded.
     first: usize,
 }
 
 impl<'a> Levels<'a> {
-    /// Those with sides of at most `side` texels.
+    /// Mip levels with sides of at most `side` texels.
     fn new(image: &'a scene::Image, side: u32) -> Self {
         let too_large = |&mip: &usize| {
             let (width, height) = level_size(image, mip);
@@ -113,7 +113,7 @@ impl<'a> Levels<'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Copy {
     image: usize,
-    /// Of those uploaded.
+    /// Index among the mip levels that are uploaded.
     level: usize,
     /// Width of the level, texels.
     width: usize,

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::culling::WorldBox;
-use crate::draw_slots::SlotOrder;
+use crate::drawables::DrawableOrder;
 use crate::geometry::views::Mirror;
 use crate::gpu_interface::DrawCommand;
 use crate::passes::cull;
@@ -45,9 +45,9 @@ fn drawn(bench: &mut Bench) -> (Vec<u32>, Vec<DrawCommand>) {
             r.copy(&BufferCopy { from, to, offset: 0, size: to.size });
         }
     });
-    let counts = bench.session.draw_slots.counts;
+    let counts = bench.session.drawables.counts;
     let list: Vec<u32> = instances.read(0, counts.instances as usize);
-    let commands: Vec<DrawCommand> = commands.read(0, bench.session.draw_slots.slots.len());
+    let commands: Vec<DrawCommand> = commands.read(0, bench.session.drawables.all.len());
     let of_command = |c: &DrawCommand| {
         let first = c.first_instance as usize;
         list[first..first + c.instance_count as usize].to_vec()
@@ -55,16 +55,16 @@ fn drawn(bench: &mut Bench) -> (Vec<u32>, Vec<DrawCommand>) {
     (commands.iter().flat_map(of_command).collect(), commands)
 }
 
-/// Instances of the slots in the order in which commands draw them.
+/// Instances of the drawables in the order in which commands draw them.
 fn in_order(bench: &Bench, view: &View) -> Vec<u32> {
-    let slots = &bench.session.draw_slots;
-    let mut order = SlotOrder::default();
-    order.update(slots, view);
-    let surfaces = 0..slots.counts.surfaces;
+    let drawables = &bench.session.drawables;
+    let mut order = DrawableOrder::default();
+    order.update(drawables, view);
+    let surfaces = 0..drawables.counts.surfaces;
     surfaces
-        .chain(order.slots)
-        .map(|slot| &slots.slots[slot as usize])
-        .flat_map(|slot| slot.first_instance..slot.first_instance + slot.instance_count)
+        .chain(order.drawables)
+        .map(|drawable| &drawables.all[drawable as usize])
+        .flat_map(|drawable| drawable.first_instance..drawable.first_instance + drawable.instance_count)
         .collect()
 }
 

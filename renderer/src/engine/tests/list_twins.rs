@@ -4,7 +4,7 @@ use super::assign_equality::random_lights;
 use super::*;
 use crate::assign::{sort_passes, tree_depth};
 use crate::config::{Assign, Test};
-use crate::cpu::{Candidate, CellRange, Culled, FoundLists, Visible};
+use crate::cpu::{Candidate, CellRange, CulledLights, FoundLists, Visible};
 use crate::geometry::{LightVolume, SphereTest, VolumeKind};
 use crate::gpu_interface::{self as device, BLOCK_WORDS, COUNTER_COUNT, GridData, TREE_WIDTH};
 use crate::measure::DeviceCounts;
@@ -14,18 +14,18 @@ use std::mem::offset_of;
 /// How small a margin is too close to call, metres and cells: f32 is good for a tenth of it here.
 const EPSILON: f64 = 2e-3;
 
-/// A device that has culled the lights of a case.
-struct Culling {
+/// A device that has culled lights, with what they were culled for.
+struct CulledDevice {
     bench: Bench,
     grid: Grid,
     visible: Vec<u32>,
     test: SphereTest,
     lights: u32,
-    /// Of all lights.
+    /// Volumes of all lights.
     volumes: Vec<LightVolume>,
 }
 
-impl Culling {
+impl CulledDevice {
     fn new(assign: Assign, (method, grid): (Method, Grid), test: &str, lights: &[PointLight]) -> Self {
         let clusters = grid.cluster_count();
         let bits = random_bits(clusters, 7, 11);
@@ -129,19 +129,19 @@ fn cases() -> Vec<((Method, Grid), &'static str, Vec<PointLight>)> {
 #[test]
 fn culled_lights_equal_their_twin() {
     for (case, (method, test, lights)) in cases().into_iter().enumerate() {
-        let mut culling = Culling::new(Assign::Scatter, method, test, &lights);
-        let blocks = cpu::mark_blocks(&culling.grid, &culling.visible);
-        let words = culling.bench.download(BufferName::BlockBits, BLOCK_WORDS as usize);
+        let mut culled = CulledDevice::new(Assign::Scatter, method, test, &lights);
+        let blocks = cpu::mark_blocks(&culled.grid, &culled.visible);
+        let words = culled.bench.download(BufferName::BlockBits, BLOCK_WORDS as usize);
         assert!(words == blocks.words(), "case {case}: other blocks");
-        let (device, volumes) = culling.candidates();
-        let twin = cpu::cull_lights(&culling.visible(), &culling.volumes, culling.test, EPSILON);
-        let Culled { candidates, borderline } = twin;
+        let (device, volumes) = culled.candidates();
+        let twin = cpu::cull_lights(&culled.visible(), &culled.volumes, culled.test, EPSILON);
+        let CulledLights { candidates, borderline } = twin;
         let sure = |list: &[Candidate]| -> Vec<Candidate> {
             list.iter().filter(|c| borderline.binary_search(&c.light).is_err()).copied().collect()
         };
         assert_eq!(sure(&device), sure(&candidates), "case {case}");
         for (candidate, volume) in device.iter().zip(&volumes) {
-            assert_eq!(volume, &culling.volumes[candidate.light as usize], "case {case}");
+            assert_eq!(volume, &culled.volumes[candidate.light as usize], "case {case}");
         }
         assert!(device.is_sorted_by_key(|candidate| candidate.light));
         assert!(borderline.len() * 10 < lights.len().max(60), "case {case}: {} too close", borderline.len());
@@ -152,29 +152,29 @@ fn culled_lights_equal_their_twin() {
 #[test]
 fn the_hierarchy_equals_its_twin() {
     for (case, (method, test, lights)) in cases().into_iter().enumerate() {
-        let mut culling = Culling::new(Assign::Hierarchy, method, test, &lights);
-        let (candidates, volumes) = culling.candidates();
-        culling.bench.run(|r, frame| hierarchy::build_hierarchy(r, frame, given()));
-        let order = sorted_as_their_twin(&mut culling, &volumes);
+        let mut culled = CulledDevice::new(Assign::Hierarchy, method, test, &lights);
+        let (candidates, volumes) = culled.candidates();
+        culled.bench.run(|r, frame| hierarchy::build_hierarchy(r, frame, given()));
+        let order = sorted_as_their_twin(&mut culled, &volumes);
         let sorted: Vec<LightVolume> = order.iter().map(|&number| volumes[number as usize]).collect();
-        assert!(culling.bench.volumes(BufferName::TreeVolumes, sorted.len()) == sorted, "case {case}");
-        assert_eq!(culling.bench.download(BufferName::TreeLights, order.len()), order, "case {case}");
-        let tree = cpu::build_nodes(sorted, culling.lights);
-        nodes_equal(&mut culling, &tree);
-        let descent = cpu::descend(&culling.visible(), &tree, culling.test, EPSILON);
-        let tests = culling.count();
+        assert!(culled.bench.volumes(BufferName::TreeVolumes, sorted.len()) == sorted, "case {case}");
+        assert_eq!(culled.bench.download(BufferName::TreeLights, order.len()), order, "case {case}");
+        let tree = cpu::build_nodes(sorted, culled.lights);
+        nodes_equal(&mut culled, &tree);
+        let descent = cpu::descend(&culled.visible(), &tree, culled.test, EPSILON);
+        let tests = culled.count();
         assert!(tests.abs_diff(descent.tests) <= descent.borderline_tests, "case {case}: {tests} tests");
         assert!(descent.borderline_tests * 20 < descent.tests, "case {case}");
         let light_at = |place: u32| candidates[order[place as usize] as usize].light;
-        lists_equal(&culling.finish(), &descent.lists, light_at);
+        lists_equal(&culled.finish(), &descent.lists, light_at);
     }
 }
 
 /// Checks keys and order, and gives the order: numbers of candidates.
-fn sorted_as_their_twin(culling: &mut Culling, volumes: &[LightVolume]) -> Vec<u32> {
-    let twin = cpu::keys(&culling.grid, volumes, culling.lights, 0.02);
-    let half = ((sort_passes(culling.lights) - 1) & 1) * culling.lights;
-    let words = culling.bench.download(BufferName::SortItems, 2 * (half as usize + volumes.len()));
+fn sorted_as_their_twin(culled: &mut CulledDevice, volumes: &[LightVolume]) -> Vec<u32> {
+    let twin = cpu::keys(&culled.grid, volumes, culled.lights, 0.02);
+    let half = ((sort_passes(culled.lights) - 1) & 1) * culled.lights;
+    let words = culled.bench.download(BufferName::SortItems, 2 * (half as usize + volumes.len()));
     let items: Vec<(u32, u32)> = words[2 * half as usize..].chunks_exact(2).map(|w| (w[0], w[1])).collect();
     let mut keys = vec![u32::MAX; volumes.len()];
     for &(key, number) in &items {
@@ -190,11 +190,11 @@ fn sorted_as_their_twin(culling: &mut Culling, volumes: &[LightVolume]) -> Vec<u
     order
 }
 
-fn nodes_equal(culling: &mut Culling, tree: &cpu::Tree) {
-    let depths = tree_depth(culling.lights);
+fn nodes_equal(culled: &mut CulledDevice, tree: &cpu::Tree) {
+    let depths = tree_depth(culled.lights);
     let first = |depth: u32| (TREE_WIDTH.pow(depth) - 1) / (TREE_WIDTH - 1);
     let last = first(depths - 1) as usize + tree.depths[depths as usize - 2].len();
-    let words = culling.bench.download(BufferName::LightNodes, 8 * last);
+    let words = culled.bench.download(BufferName::LightNodes, 8 * last);
     for (depth, nodes) in (1..depths).zip(&tree.depths) {
         for (place, node) in nodes.iter().enumerate() {
             let at = 8 * (first(depth) as usize + place);
@@ -225,29 +225,29 @@ fn lists_equal(device: &Lists, twin: &FoundLists, light_of: impl Fn(u32) -> u32)
 #[test]
 fn scattering_equals_its_twin() {
     for (case, (method, test, lights)) in cases().into_iter().enumerate() {
-        let mut culling = Culling::new(Assign::Scatter, method, test, &lights);
-        let (candidates, volumes) = culling.candidates();
-        let tests = culling.count();
-        let state = culling.state();
-        let groups = cpu::scatter_groups(&culling.visible(), &candidates);
-        let words = culling.bench.download(BufferName::Groups, 6 * groups.len());
-        let tiles: u32 = groups.iter().map(cpu::Group::tiles).sum();
-        let tile_groups = culling.bench.download(BufferName::TileGroups, tiles.max(1) as usize);
-        let group_lights = culling.bench.download(BufferName::GroupLights, 64 * tiles.max(1) as usize);
-        assert_eq!((state.tiles, state.listed), (tiles, 1), "case {case}");
+        let mut culled = CulledDevice::new(Assign::Scatter, method, test, &lights);
+        let (candidates, volumes) = culled.candidates();
+        let tests = culled.count();
+        let state = culled.state();
+        let groups = cpu::scatter_groups(&culled.visible(), &candidates);
+        let words = culled.bench.download(BufferName::Groups, 6 * groups.len());
+        let packets: u32 = groups.iter().map(cpu::ClusterGroup::packets).sum();
+        let packet_groups = culled.bench.download(BufferName::PacketGroups, packets.max(1) as usize);
+        let group_lights = culled.bench.download(BufferName::GroupLights, 64 * packets.max(1) as usize);
+        assert_eq!((state.packets, state.listed), (packets, 1), "case {case}");
         for (number, (group, w)) in (0u32..).zip(groups.iter().zip(words.chunks_exact(6))) {
             assert_eq!(unpack([w[0], w[1], w[2]]), group.cells, "case {case}, group {number}");
             let count = group.candidates.len() as u32;
-            assert_eq!(w[3..], [count, count, group.first_tile], "case {case}, group {number}");
-            let of_group = group.first_tile as usize..(group.first_tile + group.tiles()) as usize;
-            assert!(tile_groups[of_group].iter().all(|&of| of == number), "case {case}");
-            let first = 64 * group.first_tile as usize;
+            assert_eq!(w[3..], [count, count, group.first_packet], "case {case}, group {number}");
+            let of_group = group.first_packet as usize..(group.first_packet + group.packets()) as usize;
+            assert!(packet_groups[of_group].iter().all(|&of| of == number), "case {case}");
+            let first = 64 * group.first_packet as usize;
             let listed = &group_lights[first..first + count as usize];
             assert_eq!(cpu::sort_lists(listed, |n| n), group.candidates, "case {case}, group {number}");
         }
-        let (lists, twin_tests) = cpu::scatter(&culling.visible(), &groups, &volumes, culling.test, EPSILON);
+        let (lists, twin_tests) = cpu::scatter(&culled.visible(), &groups, &volumes, culled.test, EPSILON);
         assert_eq!(tests, twin_tests, "case {case}");
-        lists_equal(&culling.finish(), &lists, |number| candidates[number as usize].light);
+        lists_equal(&culled.finish(), &lists, |number| candidates[number as usize].light);
     }
 }
 
@@ -255,20 +255,20 @@ fn scattering_equals_its_twin() {
 fn lists_are_read_off_their_bits_as_by_their_twin() {
     for assign in [Assign::Hierarchy, Assign::Scatter] {
         let (method, test, lights) = cases().remove(0);
-        let mut culling = Culling::new(assign, method, test, &lights);
-        let (candidates, _) = culling.candidates();
+        let mut culled = CulledDevice::new(assign, method, test, &lights);
+        let (candidates, _) = culled.candidates();
         if assign == Assign::Hierarchy {
-            culling.bench.run(|r, frame| hierarchy::build_hierarchy(r, frame, given()));
+            culled.bench.run(|r, frame| hierarchy::build_hierarchy(r, frame, given()));
         }
-        culling.count();
-        let state = culling.state();
+        culled.count();
+        let state = culled.state();
         assert_eq!((state.masked, state.mask_words), (1, state.candidates.div_ceil(32)));
         let words = (state.visible * state.mask_words) as usize;
-        let masks = culling.bench.download(BufferName::LightMasks, words);
+        let masks = culled.bench.download(BufferName::LightMasks, words);
         let twin = cpu::read_masks(&masks, state.mask_words as usize);
-        let lengths = culling.bench.download(BufferName::ListLengths, twin.len());
+        let lengths = culled.bench.download(BufferName::ListLengths, twin.len());
         assert_eq!(lengths, twin.iter().map(|list| list.len() as u32).collect::<Vec<_>>());
-        let lists = culling.finish();
+        let lists = culled.finish();
         assert_eq!(lists.offsets, cpu::scan(&lengths));
         for (position, numbers) in twin.iter().enumerate() {
             let lights: Vec<u32> = numbers.iter().map(|&n| candidates[n as usize].light).collect();
@@ -281,27 +281,27 @@ fn lists_are_read_off_their_bits_as_by_their_twin() {
 #[test]
 fn lists_in_any_order_are_sorted_as_by_their_twin() {
     let (method, test, lights) = cases().remove(0);
-    let mut culling = Culling::new(Assign::Scatter, method, test, &lights);
-    culling.bench.engine.clusterings[0].host[0][BufferName::Grid]
+    let mut culled = CulledDevice::new(Assign::Scatter, method, test, &lights);
+    culled.bench.engine.clusterings[0].host[0][BufferName::Grid]
         .write(offset_of!(GridData, mask_capacity) as u64, &[0u32]);
-    culling.bench.run(|r, frame| {
+    culled.bench.run(|r, frame| {
         let lights = light_upload::record(r, frame);
         cull_lights::cull_lights(r, frame, lights, given());
     });
-    let (candidates, _) = culling.candidates();
-    culling.count();
-    let state = culling.state();
+    let (candidates, _) = culled.candidates();
+    culled.count();
+    let state = culled.state();
     assert_eq!(state.masked, 0);
-    culling.bench.run(|r, frame| {
+    culled.bench.run(|r, frame| {
         scan::light_offsets(r, frame, given());
         assign::write_lists(r, frame, given());
     });
-    let total = culling.state().index_total as usize;
-    let offsets = culling.bench.download(BufferName::ListOffsets, state.visible as usize + 1);
+    let total = culled.state().index_total as usize;
+    let offsets = culled.bench.download(BufferName::ListOffsets, state.visible as usize + 1);
     let unsorted =
-        Lists { indices: culling.bench.download(BufferName::LightIndices, total), offsets: offsets.clone() };
-    culling.bench.run(|r, frame| assign::sort_lists(r, frame, given()));
-    let sorted = Lists { indices: culling.bench.download(BufferName::LightIndices, total), offsets };
+        Lists { indices: culled.bench.download(BufferName::LightIndices, total), offsets: offsets.clone() };
+    culled.bench.run(|r, frame| assign::sort_lists(r, frame, given()));
+    let sorted = Lists { indices: culled.bench.download(BufferName::LightIndices, total), offsets };
     for list in 0..state.visible as usize {
         let twin = cpu::sort_lists(unsorted.of(list), |number| candidates[number as usize].light);
         assert_eq!(sorted.of(list), twin, "list {list}");

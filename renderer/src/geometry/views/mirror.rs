@@ -7,7 +7,7 @@ use glam::{DMat3, DMat4, DQuat, DVec3, DVec4};
 /// A plane in the world that reflects: its points, with normal·p = offset, stay where they are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mirror {
-    /// Unit, towards the side that is seen in it.
+    /// Unit normal of the mirror's plane, towards the side that is seen in it.
     pub normal: DVec3,
     /// Distance of the plane from the origin along the normal, metres.
     pub offset: f64,
@@ -31,7 +31,7 @@ impl Mirror {
         DMat4::from_cols(columns[0], columns[1], columns[2], origin)
     }
 
-    /// The same mirror once it is moved with a rigid `pose`.
+    /// This mirror once it is moved with a rigid `pose`.
     pub fn moved(&self, pose: &Pose) -> Self {
         let normal = pose.rotation * self.normal;
         Self { normal, offset: self.offset + normal.dot(pose.position) }

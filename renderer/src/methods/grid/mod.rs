@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | grouping | [`Space`]: what the cells are; [`Sharing`]: whose grid it is |
 //! | groups with lists | [`crate::assign::Clusters`], of the configuration: those that hold a fragment, or all |
-//! | bounds tested against lights | [`Bounds`] |
+//! | bounds tested against lights | [`ClusterBounds`] |
 //! | list store | [`ListStore`] |
 //!
 //! [`plan`] makes the grids, [`capacities`] sizes their buffers, [`record`] runs their passes, `lookup/clustered.glsl` walks
@@ -56,7 +56,7 @@ pub enum Space {
 }
 
 impl Space {
-    /// Its sizes, in the order of a method's name.
+    /// Sizes of the cells, in the order of a method's name.
     pub fn sizes(&self) -> Vec<f64> {
         match *self {
             Self::Persp { pixels } | Self::Tiled { pixels } => vec![pixels],
@@ -74,37 +74,37 @@ impl Space {
     }
 }
 
-/// What of a group is tested against lights.
+/// What of a cluster is tested against lights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Bounds {
-    /// Its cell of the grid.
+pub enum ClusterBounds {
+    /// The cell of the grid.
     Implicit,
 }
 
-/// Where the lists of groups lie.
+/// How the lists of clusters lie in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ListStore {
-    /// One behind the other, found by the sum of the lengths before.
+    /// Each behind the other, found by the sum of the lengths before.
     Offsets,
 }
 
 /// A method that groups fragments by the cells of a grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GridMethod {
-    /// One grid a view, or one for all.
+    /// Whether each view has a grid or all share one.
     pub sharing: Sharing,
-    /// The cells.
+    /// Space that the cells divide.
     pub space: Space,
-    /// What of them is tested.
-    pub bounds: Bounds,
-    /// Where their lists lie.
+    /// What of the clusters is tested against lights.
+    pub bounds: ClusterBounds,
+    /// How the lists of the clusters lie in memory.
     pub lists: ListStore,
 }
 
 impl GridMethod {
-    /// One with implicit bounds and lists by offsets.
+    /// The method with implicit bounds and lists by offsets.
     pub const fn new(sharing: Sharing, space: Space) -> Self {
-        Self { sharing, space, bounds: Bounds::Implicit, lists: ListStore::Offsets }
+        Self { sharing, space, bounds: ClusterBounds::Implicit, lists: ListStore::Offsets }
     }
 
     /// Whether the two differ in their sizes alone.

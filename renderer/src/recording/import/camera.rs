@@ -45,7 +45,7 @@ pub(super) struct Simulation {
 }
 
 impl Simulation {
-    /// At rest at the camera's stored pose; `dt` is the time of a frame in seconds.
+    /// A camera at rest at its stored pose; `dt` is the time of a frame in seconds.
     pub(super) fn new(camera: &Camera, dt: f32) -> Self {
         let Camera { positional_velocity, angular_velocity, position, yaw, pitch, fov, .. } = *camera;
         let state = CameraState { position, yaw, pitch, fov };

@@ -7,17 +7,17 @@ const MIN_EVENT_BYTES: usize = 8;
 /// A camera's settings and pose, as the program stored them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Camera {
-    /// -far, metres.
+    /// Z of the far plane: -far, metres.
     pub(super) z_far: f32,
-    /// -near, metres.
+    /// Z of the near plane: -near, metres.
     pub(super) z_near: f32,
-    /// m/s.
+    /// Speed of the camera, m/s.
     pub(super) positional_velocity: f32,
     /// Radians per second and unit of mouse motion.
     pub(super) angular_velocity: f32,
-    /// World position, metres.
+    /// Place of the camera in the world, metres.
     pub(super) position: [f32; 3],
-    /// About +Y, radians.
+    /// Turn about +Y, radians.
     pub(super) yaw: f32,
     /// About the turned +X, radians.
     pub(super) pitch: f32,
@@ -43,7 +43,7 @@ pub(super) enum Event {
 pub(super) struct Decoded {
     /// The main camera; the debug camera is not kept.
     pub(super) camera: Camera,
-    /// Events by frame.
+    /// Events of each frame.
     pub(super) frames: Vec<Vec<Event>>,
 }
 

@@ -16,11 +16,11 @@ use std::fmt;
 pub struct ScopesRow {
     /// Name of the run: the method, with the lighting behind it where there are several.
     pub run: String,
-    /// How many frames.
+    /// Number of frames.
     pub frames: usize,
     /// GPU time of the frame with all scopes, milliseconds: median over frames of the least of the turns.
     pub all_ms: f64,
-    /// The same with the scope of the frame alone.
+    /// GPU time of the frame with the scope of the frame alone, milliseconds: median likewise.
     pub frame_ms: f64,
     /// Median over frames of the ratio of the two.
     pub ratio: f64,
@@ -89,7 +89,7 @@ fn least_times(
 /// Milliseconds of the outermost scope, which is the frame.
 fn frame_time(case: &TimedFrame<'_>, session: &mut Session, engine: &mut Engine) -> Result<f64> {
     case.render(session, engine)?;
-    let frame = session.slots[SLOT].timestamps.read()?.next();
+    let frame = session.frame_slots[SLOT].timestamps.read()?.next();
     Ok(frame.map_or(f64::NAN, |(gpu_ms, _)| gpu_ms))
 }
 

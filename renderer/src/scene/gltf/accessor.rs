@@ -13,11 +13,11 @@ const MAX_ZEROS: u64 = 1 << 22;
 
 /// A range-checked accessor.
 pub(super) struct Accessor<'a> {
-    /// Its place in the file.
+    /// Index of the accessor in the file.
     index: usize,
-    /// Elements.
+    /// Number of elements.
     pub count: usize,
-    /// Components an element.
+    /// Components of an element.
     pub lanes: usize,
     component: ComponentType,
     normalized: bool,

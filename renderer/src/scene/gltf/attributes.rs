@@ -10,7 +10,7 @@ use json::validation::Checked;
 use super::super::mesh::Mesh;
 use super::accessor::Accessor;
 use super::document::Document;
-use super::material::UvSets;
+use super::material::TexCoords;
 use super::skin::Influences;
 
 /// A primitive whose attributes are read.
@@ -18,16 +18,16 @@ use super::skin::Influences;
 pub(super) struct Attributes<'a> {
     pub document: &'a Document,
     pub json: &'a json::mesh::Primitive,
-    /// By morph target.
+    /// Weights of the morph targets, by their order.
     pub weights: &'a [f32],
 }
 
 /// The vertices read, of all that there are.
 #[derive(Clone)]
 pub(super) struct Wanted {
-    /// Those of each attribute.
+    /// Number of elements that each attribute has.
     pub count: usize,
-    /// Those in use.
+    /// Vertices in use.
     pub range: Range<usize>,
 }
 
@@ -55,7 +55,7 @@ impl<'a> Attributes<'a> {
         Ok(accessor)
     }
 
-    /// Positions.
+    /// Reads positions.
     pub fn read_positions(
         &self,
         positions: &Accessor,
@@ -109,16 +109,16 @@ impl<'a> Attributes<'a> {
     }
 
     /// The two sets of texture coordinates that a material reads; true where one is missing.
-    pub fn read_uvs(&self, wanted: &Wanted, sets: &UvSets, mesh: &mut Mesh) -> Result<bool, String> {
+    pub fn read_uvs(&self, wanted: &Wanted, tex_coords: &TexCoords, mesh: &mut Mesh) -> Result<bool, String> {
         let mut lacks = false;
-        for (slot, set) in sets.iter().enumerate() {
-            let Some(set) = *set else { continue };
-            let Some(uvs) = self.expect(Semantic::TexCoords(set), wanted, 2)? else {
+        for (uv_set, number) in tex_coords.iter().enumerate() {
+            let Some(number) = *number else { continue };
+            let Some(uvs) = self.expect(Semantic::TexCoords(number), wanted, 2)? else {
                 lacks = true;
                 continue;
             };
             uvs.floats(wanted.range.clone(), |i, uv: [f32; 2]| {
-                mesh.vertices[i].uv[slot] = uv.map(|x| if x.is_finite() { x } else { 0.0 });
+                mesh.vertices[i].uv[uv_set] = uv.map(|x| if x.is_finite() { x } else { 0.0 });
             });
         }
         Ok(lacks)

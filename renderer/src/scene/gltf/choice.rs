@@ -40,7 +40,7 @@ impl Choice {
         Ok(Some(Self(images)).filter(|choice| !choice.0.is_empty()))
     }
 
-    /// All of them.
+    /// All images of the choice, in order.
     pub fn images(&self) -> impl Iterator<Item = usize> {
         self.0.iter().copied()
     }

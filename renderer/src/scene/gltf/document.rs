@@ -119,7 +119,7 @@ impl Document {
         Ok((bytes.map_err(|message| name(message.clone()))?, stride))
     }
 
-    /// Bytes of all buffers.
+    /// Size in bytes of all buffers.
     pub fn buffer_bytes(&self) -> u64 {
         self.buffers.iter().flatten().map(|bytes| bytes.len() as u64).sum()
     }

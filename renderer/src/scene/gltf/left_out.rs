@@ -24,7 +24,7 @@ impl LeftOut {
         }
     }
 
-    /// One line a kind.
+    /// What was left out, one line a kind.
     pub fn into_warnings(self) -> Vec<String> {
         let line = |(kind, count): (String, Option<u64>)| match count {
             Some(count) => format!("{kind}: {count}"),

@@ -19,17 +19,18 @@ use super::left_out::LeftOut;
 use super::uri::{self, Target};
 use crate::{Error, Result};
 
-/// TEXCOORD_n sets that a material reads, by slot of [`super::super::Vertex::uv`].
-pub(super) type UvSets = [Option<u32>; 2];
+/// The number n of the TEXCOORD_n that becomes each of the two sets of [`super::super::Vertex::uv`]; `None` where a
+/// material reads fewer.
+pub(super) type TexCoords = [Option<u32>; 2];
 
 /// The materials that primitives use.
 pub(super) struct Materials {
-    /// In the document's order; the default one comes last where it is needed.
+    /// Materials in the document's order; the default one comes last where it is needed.
     pub list: Vec<Material>,
     /// By place in the document: the place in `list`.
     places: BTreeMap<usize, u32>,
-    /// By material.
-    pub uv_sets: Vec<UvSets>,
+    /// The TEXCOORD_n that each material reads.
+    pub tex_coords: Vec<TexCoords>,
     /// What [`TextureRef::image`] counts: images of the document, the first readable of which is meant, and how it is read.
     images: Vec<(Choice, Content)>,
 }
@@ -44,20 +45,20 @@ impl Materials {
         let used: BTreeSet<Option<usize>> =
             used.map(|material| material.map(|index| index.value())).collect();
         let mut reader = Reader { document, images: Vec::new(), image_of: BTreeMap::new() };
-        let (mut list, mut uv_sets, mut places) = (Vec::new(), Vec::new(), BTreeMap::new());
+        let (mut list, mut tex_coords, mut places) = (Vec::new(), Vec::new(), BTreeMap::new());
         for &i in used.iter().flatten() {
-            let (material, sets) = reader
+            let (material, read) = reader
                 .read(json::Index::new(i as u32), left_out)
                 .map_err(|message| document.error(format!("materials[{i}] {message}")))?;
             places.insert(i, list.len() as u32);
             list.push(material);
-            uv_sets.push(sets);
+            tex_coords.push(read);
         }
         if used.contains(&None) || list.is_empty() {
             list.push(Material::plain("default"));
-            uv_sets.push([None; 2]);
+            tex_coords.push([None; 2]);
         }
-        Ok(Self { list, places, uv_sets, images: reader.images })
+        Ok(Self { list, places, tex_coords, images: reader.images })
     }
 
     /// The place in `list` of the material that a primitive names, or of the default one.
@@ -128,15 +129,15 @@ fn used_by(error: Error, document: &Document, index: usize) -> Error {
 struct Use<'a> {
     slot: TextureSlot,
     texture: json::Index<json::Texture>,
-    /// TEXCOORD_n.
-    set: u32,
+    /// The number n of the TEXCOORD_n that places it.
+    tex_coord: u32,
     transform: Option<Cow<'a, TextureTransform>>,
 }
 
 impl<'a> Use<'a> {
     fn new(slot: TextureSlot, info: &'a json::texture::Info) -> Self {
         let transform = info.extensions.as_ref().and_then(|e| e.texture_transform.as_ref());
-        Self { slot, texture: info.index, set: info.tex_coord, transform: transform.map(Cow::Borrowed) }
+        Self { slot, texture: info.index, tex_coord: info.tex_coord, transform: transform.map(Cow::Borrowed) }
     }
 }
 
@@ -152,7 +153,7 @@ impl Reader<'_> {
         &mut self,
         index: json::Index<json::Material>,
         left_out: &mut LeftOut,
-    ) -> Result<(Material, UvSets), String> {
+    ) -> Result<(Material, TexCoords), String> {
         let value = self.document.value(index)?;
         let mut json = json::Material::deserialize(value).map_err(|e| format!("is not valid: {e}"))?;
         extensions::note_material(value, left_out);
@@ -166,7 +167,7 @@ impl Reader<'_> {
         name: String,
         json: &json::Material,
         left_out: &mut LeftOut,
-    ) -> Result<(Material, UvSets), String> {
+    ) -> Result<(Material, TexCoords), String> {
         let Checked::Valid(alpha_mode) = json.alpha_mode else {
             return Err("has an unknown alphaMode".into());
         };
@@ -192,18 +193,18 @@ impl Reader<'_> {
             textures: [None; 5],
         };
         let uses = texture_uses(json)?;
-        let sets = uv_sets(&uses)?;
+        let tex_coords = tex_coords(&uses)?;
         for texture in &uses {
-            let reference = self.texture(texture, &sets, content(&material, texture.slot), left_out)?;
+            let reference = self.texture(texture, &tex_coords, content(&material, texture.slot), left_out)?;
             material.textures[texture.slot as usize] = reference;
         }
-        Ok((material, sets))
+        Ok((material, tex_coords))
     }
 
     fn texture(
         &mut self,
         texture: &Use,
-        sets: &UvSets,
+        tex_coords: &TexCoords,
         content: Content,
         left_out: &mut LeftOut,
     ) -> Result<Option<TextureRef>, String> {
@@ -218,7 +219,7 @@ impl Reader<'_> {
         Ok(Some(TextureRef {
             image: self.image(choice, content),
             sampler,
-            uv_slot: u32::from(sets[0] != Some(texture.set)),
+            uv_set: u32::from(tex_coords[0] != Some(texture.tex_coord)),
             uv_transform: texture.transform.as_deref().map_or(TextureRef::IDENTITY, matrix),
         }))
     }
@@ -279,16 +280,21 @@ fn texture_uses(json: &json::Material) -> Result<Vec<Use<'_>>, String> {
     uses.extend(json.emissive_texture.as_ref().map(|info| Use::new(TextureSlot::Emissive, info)));
     if let Some(normal) = &json.normal_texture {
         let transform = other_transform(normal.extensions.as_ref().map(|e| &e.others))?;
-        uses.push(Use { slot: TextureSlot::Normal, texture: normal.index, set: normal.tex_coord, transform });
+        uses.push(Use {
+            slot: TextureSlot::Normal,
+            texture: normal.index,
+            tex_coord: normal.tex_coord,
+            transform,
+        });
     }
     if let Some(occlusion) = &json.occlusion_texture {
         let transform = other_transform(occlusion.extensions.as_ref().map(|e| &e.others))?;
-        let (slot, texture, set) = (TextureSlot::Occlusion, occlusion.index, occlusion.tex_coord);
-        uses.push(Use { slot, texture, set, transform });
+        let (slot, texture, tex_coord) = (TextureSlot::Occlusion, occlusion.index, occlusion.tex_coord);
+        uses.push(Use { slot, texture, tex_coord, transform });
     }
     for texture in &mut uses {
         let replaced = texture.transform.as_ref().and_then(|transform| transform.tex_coord);
-        texture.set = replaced.unwrap_or(texture.set);
+        texture.tex_coord = replaced.unwrap_or(texture.tex_coord);
     }
     Ok(uses)
 }
@@ -302,16 +308,16 @@ fn other_transform<'a>(
     parsed.map(|t| t.map(Cow::Owned)).map_err(|e| format!("has a broken KHR_texture_transform: {e}"))
 }
 
-/// The distinct sets in use, the lower in slot 0.
-fn uv_sets(uses: &[Use]) -> Result<UvSets, String> {
-    let mut sets: Vec<_> = uses.iter().map(|texture| texture.set).collect();
-    sets.sort_unstable();
-    sets.dedup();
-    if sets.len() > 2 {
-        let names: Vec<_> = sets.iter().map(|set| format!("TEXCOORD_{set}")).collect();
+/// The distinct TEXCOORD_n in use, ascending.
+fn tex_coords(uses: &[Use]) -> Result<TexCoords, String> {
+    let mut used: Vec<_> = uses.iter().map(|texture| texture.tex_coord).collect();
+    used.sort_unstable();
+    used.dedup();
+    if used.len() > 2 {
+        let names: Vec<_> = used.iter().map(|number| format!("TEXCOORD_{number}")).collect();
         return Err(format!("reads {}; at most two sets of texture coordinates work", names.join(", ")));
     }
-    Ok([sets.first().copied(), sets.get(1).copied()])
+    Ok([used.first().copied(), used.get(1).copied()])
 }
 
 fn read_sampler(json: &json::texture::Sampler) -> Sampler {

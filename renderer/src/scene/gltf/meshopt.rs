@@ -13,7 +13,7 @@ const MAX_EXPANSION: usize = 1024;
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Compressed {
-    /// Into the document's buffers.
+    /// Index of a buffer of the document.
     pub buffer: u32,
     #[serde(default)]
     pub byte_offset: u64,

@@ -17,7 +17,7 @@ use super::left_out::LeftOut;
 use super::skin::Skin;
 use crate::Result;
 
-/// Meshes at nodes, more than which are refused: a small file can ask for any number of them.
+/// Most meshes at nodes; more are refused: a small file can ask for any number of them.
 pub(super) const MAX_PLACED: usize = 1 << 22;
 
 type Node = json::Index<json::Node>;
@@ -26,26 +26,26 @@ type Node = json::Index<json::Node>;
 pub(super) struct Placed {
     /// What is built once; without repetition.
     pub shapes: Vec<Shape>,
-    /// In the order of a depth-first walk.
+    /// Placed meshes in the order of a depth-first walk.
     pub meshes: Vec<PlacedMesh>,
-    /// By place in the document: the skins of shapes.
+    /// Skins of shapes, by place in the document.
     pub skins: BTreeMap<usize, Skin>,
-    /// Point lights.
+    /// Point lights of the scene.
     pub lights: Vec<SceneLight>,
 }
 
 /// A mesh as it stands: its morph targets weighted, and skinned.
 pub(super) struct Shape {
     pub mesh: json::Index<json::Mesh>,
-    /// By morph target; those beyond weigh nothing.
+    /// Weights by morph target; targets beyond weigh nothing.
     pub weights: Vec<f32>,
-    /// Into the document's skins.
+    /// Index of the skin in the document.
     pub skin: Option<usize>,
 }
 
 /// A shape at a node.
 pub(super) struct PlacedMesh {
-    /// Into [`Placed::shapes`].
+    /// Index into [`Placed::shapes`].
     pub shape: usize,
     pub world_from_object: DMat4,
 }

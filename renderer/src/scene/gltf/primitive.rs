@@ -26,7 +26,7 @@ const EXPANSION: u64 = 256;
 
 /// A primitive to build.
 pub(super) struct Job {
-    /// Into [`Placed::shapes`].
+    /// Index into [`Placed::shapes`].
     pub shape: usize,
     primitive: usize,
     json: json::mesh::Primitive,
@@ -43,7 +43,7 @@ impl Job {
 /// A built primitive.
 pub(super) struct Built {
     pub mesh: Mesh,
-    /// Its material reads coordinates that it does not have.
+    /// Whether the material reads coordinates that the primitive does not have.
     pub lacks_uv: bool,
 }
 
@@ -65,7 +65,7 @@ struct Planner<'a> {
     document: &'a Document,
     left_out: &'a mut LeftOut,
     jobs: Vec<Job>,
-    /// That the jobs will take, at most.
+    /// Bytes that the jobs will take, at most.
     bytes: u64,
 }
 
@@ -155,8 +155,8 @@ impl Builder<'_> {
         let material = self.materials.place(job.material());
         let mut mesh = Mesh { vertices: vec![PLAIN_VERTEX; wanted.range.len()], indices, material };
         attributes.read_positions(&positions, &wanted, &mut mesh)?;
-        let sets = &self.materials.uv_sets[material as usize];
-        let lacks_uv = attributes.read_uvs(&wanted, sets, &mut mesh)?;
+        let tex_coords = &self.materials.tex_coords[material as usize];
+        let lacks_uv = attributes.read_uvs(&wanted, tex_coords, &mut mesh)?;
         attributes.read_colors(&wanted, &mut mesh)?;
         let normals = attributes.read_normals(&wanted, &mut mesh)?;
         // Where normals are missing, given tangents are to be ignored; where no normal map asks, they are not read.

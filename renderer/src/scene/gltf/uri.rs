@@ -17,7 +17,7 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
 pub(super) enum Target {
     /// A file, relative to the document's folder.
     File(PathBuf),
-    /// Bytes within the URI itself.
+    /// Data within the URI itself.
     Data(Vec<u8>),
 }
 

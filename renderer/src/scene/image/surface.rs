@@ -25,7 +25,7 @@ pub(super) enum Layout {
 /// Where the channels lie in a word.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Packed {
-    /// Bytes of a word, 1 to 4.
+    /// Size in bytes of a word, 1 to 4.
     pub bytes: usize,
     /// Masks of red, green, blue and alpha; a channel without bits is full.
     pub masks: [u32; 4],
@@ -36,9 +36,9 @@ pub(super) struct Packed {
 enum Numbers {
     /// 0..1, rounded to 8 bits by the decoder.
     Unorm,
-    /// -1..1.
+    /// Signed normalised integers, -1..1.
     Snorm,
-    /// Linear, unbounded.
+    /// Linear floating-point numbers, unbounded.
     Float,
 }
 
@@ -58,7 +58,7 @@ impl Layout {
         }
     }
 
-    /// Bytes of an image of `size` (width, height).
+    /// Size in bytes of an image of `size` (width, height).
     pub fn bytes(self, size: [u32; 2]) -> u64 {
         let (side, bytes) = self.block();
         size.iter().map(|&s| u64::from(s).div_ceil(side as u64)).product::<u64>() * bytes as u64

@@ -44,7 +44,7 @@ pub(super) fn build(
 struct Builder<'a> {
     geometry: &'a Geometry,
     built: Built,
-    /// Of corners with a normal.
+    /// Vertices made so far of corners with a normal.
     vertex_of_corner: HashMap<Corner, u32>,
     /// Room for the points of a face.
     outline: Vec<DVec3>,

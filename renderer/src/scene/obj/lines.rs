@@ -5,7 +5,7 @@ use std::borrow::Cow;
 /// A statement: a line, with those that continue it.
 #[derive(Debug, PartialEq)]
 pub(super) struct Statement<'a> {
-    /// Its first line, from 1.
+    /// First line of the statement, from 1.
     pub line: usize,
     text: Cow<'a, str>,
 }
@@ -95,7 +95,7 @@ pub(super) fn portable(name: &str) -> String {
     name.replace('\\', "/")
 }
 
-/// A finite number.
+/// Reads a finite number.
 pub(super) fn number(word: &str) -> Option<f32> {
     word.parse().ok().filter(|number: &f32| number.is_finite())
 }

@@ -13,7 +13,7 @@ use crate::{Error, Result};
 /// How an image is made from files.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum Recipe {
-    /// One file.
+    /// One image file.
     Plain(PathBuf, Content),
     /// `map_Kd`, with the alpha of `map_d`.
     Masked(PathBuf, PathBuf, Content),

@@ -13,19 +13,19 @@ use crate::{Error, Result, text};
 #[derive(Debug, Default)]
 pub(super) struct Definition {
     pub name: String,
-    /// The MTL file.
+    /// Path of the MTL file.
     pub file: PathBuf,
     /// Where it begins, from 1.
     line: usize,
-    /// `Kd`, linear.
+    /// Diffuse colour `Kd`, linear.
     pub diffuse: Option<[f32; 3]>,
-    /// `Ke`, linear.
+    /// Emitted colour `Ke`, linear.
     pub emissive: Option<[f32; 3]>,
-    /// `Ns`.
+    /// Specular exponent `Ns`.
     pub exponent: Option<f32>,
-    /// `Pr`.
+    /// Roughness `Pr`.
     pub roughness: Option<f32>,
-    /// `Pm`.
+    /// Metalness `Pm`.
     pub metallic: Option<f32>,
     /// `d`.
     dissolve: Option<f32>,
@@ -33,15 +33,15 @@ pub(super) struct Definition {
     transparency: Option<(f32, usize)>,
     /// 1 opaque to 0 invisible, from `d` and `Tr`.
     pub alpha: f32,
-    /// `map_Kd`.
+    /// Map of the diffuse colour, `map_Kd`.
     pub color_map: Option<TextureLine>,
-    /// `map_d`.
+    /// Map of the coverage, `map_d`.
     pub mask_map: Option<TextureLine>,
-    /// `map_Ke`.
+    /// Map of the emitted colour, `map_Ke`.
     pub emissive_map: Option<TextureLine>,
-    /// `norm`.
+    /// Map of tangent-space normals, `norm`.
     pub normal_map: Option<TextureLine>,
-    /// `map_Bump`, `bump`.
+    /// Map of heights, `map_Bump` or `bump`.
     pub bump_map: Option<TextureLine>,
 }
 
@@ -103,7 +103,7 @@ impl Library {
         Ok(library)
     }
 
-    /// One warning a kind for each library of the OBJ file at `scene`.
+    /// Warnings, one a kind for each library of the OBJ file at `scene`.
     pub fn warnings(&self, scene: &Path) -> impl Iterator<Item = String> {
         self.oddities.iter().flat_map(|oddities| oddities.warnings(scene))
     }

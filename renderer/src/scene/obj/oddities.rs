@@ -9,7 +9,7 @@ use crate::{Error, Result};
 /// What is odd about a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Kind {
-    /// Bytes that are not UTF-8.
+    /// Bytes are not UTF-8.
     Encoding,
     /// A keyword that the format does not have.
     UnknownKeyword,
@@ -25,7 +25,7 @@ pub(super) enum Kind {
     Color,
     /// A vertex without colour among coloured ones.
     NoColor,
-    /// `vt` without coordinates.
+    /// A `vt` has no coordinates.
     Coordinates,
     /// `vn` without a normal.
     Normal,
@@ -112,12 +112,12 @@ struct Found {
 }
 
 impl Oddities {
-    /// Of `file`, none so far; `strict` refuses the first.
+    /// Oddities of `file`, none so far; `strict` refuses the first.
     pub fn new(file: &Path, strict: bool) -> Self {
         Self { file: file.to_owned(), strict, found: BTreeMap::new() }
     }
 
-    /// Of another file, refused where these are.
+    /// Oddities of another file, refused where these are.
     pub fn of_same_rigour(&self, file: &Path) -> Self {
         Self::new(file, self.strict)
     }
@@ -130,7 +130,7 @@ impl Oddities {
         self.note_named(line, kind, "", what)
     }
 
-    /// The same for a kind that is told apart by a name.
+    /// Notes as [`Self::note`] does, for a kind that is told apart by a name.
     ///
     /// # Errors
     /// As [`Self::note`].
@@ -154,7 +154,7 @@ impl Oddities {
         Ok(())
     }
 
-    /// One warning a kind, by first line; of another file than `scene` with its path.
+    /// Warnings, one a kind, by first line; those of another file than `scene` with its path.
     pub fn warnings(&self, scene: &Path) -> Vec<String> {
         let named = |message| match self.file == scene {
             true => message,

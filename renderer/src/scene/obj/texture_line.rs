@@ -9,9 +9,9 @@ use super::oddities::shown;
 /// A texture line without its keyword: `[-option value...]... file`, or the options behind the file.
 #[derive(Debug, PartialEq)]
 pub(super) struct TextureLine {
-    /// As written, with forward slashes.
+    /// Path of the image as written, with forward slashes.
     pub file: PathBuf,
-    /// `-bm`.
+    /// Strength of bumps, `-bm`.
     pub bump: f32,
     sampler: Sampler,
     uv_transform: [[f32; 3]; 2],
@@ -31,11 +31,11 @@ struct Options {
 /// What follows the name of an option.
 #[derive(Debug, Clone, Copy)]
 enum Values {
-    /// At most so many numbers.
+    /// Takes at most so many numbers.
     Numbers(usize),
-    /// `on` or `off`.
+    /// Takes `on` or `off`.
     Switch,
-    /// Anything.
+    /// Takes any word.
     Word,
 }
 
@@ -60,7 +60,7 @@ impl TextureLine {
 
     /// The texture, given the place of its image in the scene.
     pub fn reference(&self, image: u32) -> TextureRef {
-        TextureRef { image, sampler: self.sampler, uv_slot: 0, uv_transform: self.uv_transform }
+        TextureRef { image, sampler: self.sampler, uv_set: 0, uv_transform: self.uv_transform }
     }
 }
 

@@ -10,7 +10,7 @@ use super::maths::Place;
 use super::mesh::{Chunk, Mesh};
 use super::palette::{Look, Surface};
 use super::patterns::Pattern;
-use super::texture::TextureSet;
+use super::texture::PatternImages;
 use crate::scene::{
     AlphaMode, Bounds, Image, Instance, Material, Primitive, Sampler, Scene, TextureRef, TextureSlot, Vertex,
     Wrap,
@@ -130,7 +130,7 @@ struct ImageSet {
 fn bake_patterns(surfaces: &[Surface]) -> (Vec<Image>, BTreeMap<Pattern, ImageSet>) {
     let patterns: BTreeSet<Pattern> = surfaces.iter().map(|surface| surface.look().pattern).collect();
     let patterns: Vec<Pattern> = patterns.into_iter().collect();
-    let baked: Vec<TextureSet> = patterns.par_iter().map(|pattern| pattern.bake()).collect();
+    let baked: Vec<PatternImages> = patterns.par_iter().map(|pattern| pattern.bake()).collect();
     let mut images = Vec::new();
     let mut push = |image: Image| {
         images.push(image);
@@ -160,7 +160,7 @@ fn material(surface: Surface, sets: &BTreeMap<Pattern, ImageSet>) -> Material {
         Some(TextureRef {
             image,
             sampler: Sampler { wrap: [Wrap::Repeat; 2], nearest: false },
-            uv_slot: 0,
+            uv_set: 0,
             uv_transform: [[scale, 0.0, 0.0], [0.0, scale, 0.0]],
         })
     };

@@ -84,7 +84,7 @@ impl Dice {
         Self(Pcg32::new(seed, 0x5eed))
     }
 
-    /// Uniform in 0..1.
+    /// A number uniform in 0..1.
     pub(super) fn unit(&mut self) -> f32 {
         (self.0.next_u32() >> 8) as f32 / 16_777_216.0
     }
@@ -94,7 +94,7 @@ impl Dice {
         mix(low, high, self.unit())
     }
 
-    /// Uniform in 0..`count`.
+    /// A whole number uniform in 0..`count`.
     pub(super) fn below(&mut self, count: u32) -> u32 {
         ((u64::from(self.0.next_u32()) * u64::from(count)) >> 32) as u32
     }
@@ -121,17 +121,17 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// At `(x, y, z)`, unturned.
+    /// The place at `(x, y, z)`, unturned.
     pub(super) fn at(x: f32, y: f32, z: f32) -> Self {
         Self { axes: [Vec3::X, Vec3::Y, Vec3::Z], origin: Vec3::new(x, y, z) }
     }
 
-    /// At `origin`, with the object's x axis along the horizontal unit vector `(x, z)`.
+    /// The place at `origin`, with the object's x axis along the horizontal unit vector `(x, z)`.
     pub(super) fn along(origin: Vec3, [x, z]: [f32; 2]) -> Self {
         Self { axes: [Vec3::new(x, 0.0, z), Vec3::Y, Vec3::new(-z, 0.0, x)], origin }
     }
 
-    /// At `origin`, with the object's y axis along the unit vector `up`.
+    /// The place at `origin`, with the object's y axis along the unit vector `up`.
     pub(super) fn upright(origin: Vec3, up: Vec3) -> Self {
         let helper = if up.x * up.x < 0.5 { Vec3::X } else { Vec3::Z };
         let back = helper.cross(up).normalize();
@@ -172,7 +172,7 @@ impl Place {
         self.axes[0] * v.x + self.axes[1] * v.y + self.axes[2] * v.z
     }
 
-    /// The same as a matrix.
+    /// The place as a matrix.
     pub(super) fn matrix(&self) -> Mat4 {
         let [x, y, z] = self.axes.map(|axis| axis.extend(0.0));
         Mat4::from_cols(x, y, z, self.origin.extend(1.0))

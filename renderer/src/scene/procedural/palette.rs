@@ -90,7 +90,7 @@ pub(super) enum Surface {
 
 /// How a surface looks.
 pub(super) struct Look {
-    /// Its textures.
+    /// Pattern of the textures.
     pub(super) pattern: Pattern,
     /// Metres that one tile of the texture covers; 1 where the coordinates are not metres.
     pub(super) tile: f32,
@@ -145,7 +145,7 @@ impl Look {
 const WHITE: [f32; 3] = [1.0, 1.0, 1.0];
 
 impl Surface {
-    /// Its look.
+    /// Colours and textures of the surface.
     pub(super) fn look(self) -> Look {
         match self {
             Self::Road => Look::new(Pattern::Setts, 2.0, WHITE),

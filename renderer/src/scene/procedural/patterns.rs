@@ -4,7 +4,7 @@ mod cutout;
 mod masonry;
 mod plain;
 
-use super::texture::{Texel, TextureSet, bake};
+use super::texture::{PatternImages, Texel, bake};
 
 /// A texture shared by one or more surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -67,7 +67,7 @@ pub(super) enum Pattern {
 
 impl Pattern {
     /// The pattern's images, named after it.
-    pub(super) fn bake(self) -> TextureSet {
+    pub(super) fn bake(self) -> PatternImages {
         bake(&format!("{self:?}").to_lowercase(), self.texel())
     }
 

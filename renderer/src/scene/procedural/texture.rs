@@ -10,13 +10,13 @@ pub(super) const SIDE: usize = 256;
 /// What a pattern says about one point of its tile.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Texel {
-    /// sRGB-encoded colour, 0..1.
+    /// Colour of the texel, sRGB-encoded, 0..1.
     pub(super) color: [f32; 3],
-    /// Coverage, 0..1.
+    /// Coverage of the texel, 0..1.
     pub(super) alpha: f32,
     /// Height above the surface, in tile sides.
     pub(super) height: f32,
-    /// Perceptual roughness.
+    /// Perceptual roughness of the texel.
     pub(super) roughness: f32,
     /// 0 dielectric to 1 metal.
     pub(super) metal: f32,
@@ -30,19 +30,19 @@ impl Texel {
         Self { color, alpha: 1.0, height: 0.0, roughness, metal: 0.0, glow: 0.0 }
     }
 
-    /// The same, raised.
+    /// This texel, raised.
     pub(super) fn raised(self, height: f32) -> Self {
         Self { height, ..self }
     }
 
-    /// The same with another coverage.
+    /// This texel with another coverage.
     pub(super) fn covering(self, alpha: f32) -> Self {
         Self { alpha, ..self }
     }
 }
 
 /// The images of one pattern.
-pub(super) struct TextureSet {
+pub(super) struct PatternImages {
     /// Colour and coverage, sRGB.
     pub(super) base_color: Image,
     /// Occlusion, roughness and metalness in R, G and B.
@@ -54,7 +54,7 @@ pub(super) struct TextureSet {
 }
 
 /// Evaluates a pattern at the centre of every texel and makes its images with their mips.
-pub(super) fn bake(name: &str, pattern: impl Fn(f32, f32) -> Texel) -> TextureSet {
+pub(super) fn bake(name: &str, pattern: impl Fn(f32, f32) -> Texel) -> PatternImages {
     let centre = |k: usize| (k as f32 + 0.5) / SIDE as f32;
     let texels: Vec<Texel> = (0..SIDE * SIDE).map(|k| pattern(centre(k % SIDE), centre(k / SIDE))).collect();
     let image = |suffix: &str, srgb: bool, texel: &dyn Fn(usize, &Texel) -> [f32; 4]| {
@@ -63,7 +63,7 @@ pub(super) fn bake(name: &str, pattern: impl Fn(f32, f32) -> Texel) -> TextureSe
     };
     let opaque = |[r, g, b]: [f32; 3], a: f32| [r, g, b, a];
     let slopes = Slopes(&texels);
-    TextureSet {
+    PatternImages {
         base_color: image("color", true, &|_, t| opaque(t.color, t.alpha)),
         surface: image("surface", false, &|k, t| [slopes.occlusion(k), t.roughness, t.metal, 1.0]),
         normal: image("normal", false, &|k, _| slopes.normal(k)),

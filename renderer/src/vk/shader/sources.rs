@@ -167,11 +167,11 @@ pub(super) struct SourceFile {
 
 /// An `#include` line whose target exists.
 pub(super) struct Include {
-    /// From 1.
+    /// Line of the directive, from 1.
     pub line: u32,
-    /// As written.
+    /// Name of the header as written.
     pub header: String,
-    /// Normal path.
+    /// Normal path of the file that is included.
     pub target: String,
 }
 

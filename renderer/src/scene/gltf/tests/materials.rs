@@ -143,15 +143,15 @@ fn one_image_as_color_and_as_data_becomes_two() {
 }
 
 #[test]
-fn two_coordinate_sets_fill_two_slots() {
+fn two_coordinate_sets_fill_two_uv_sets() {
     let mut asset = textured(1);
     asset.material(json!({
         "pbrMetallicRoughness": { "baseColorTexture": { "index": 0, "texCoord": 3 } },
         "emissiveTexture": { "index": 0, "texCoord": 1 }
     }));
     let scene = asset.load().unwrap();
-    let slot = |slot: TextureSlot| scene.materials[0].textures[slot as usize].unwrap().uv_slot;
-    assert_eq!((slot(TextureSlot::BaseColor), slot(TextureSlot::Emissive)), (1, 0));
+    let uv_set = |slot: TextureSlot| scene.materials[0].textures[slot as usize].unwrap().uv_set;
+    assert_eq!((uv_set(TextureSlot::BaseColor), uv_set(TextureSlot::Emissive)), (1, 0));
     assert_eq!(scene.vertices[0].uv, [[1.0; 2], [3.0; 2]]);
 
     asset.json["materials"][0]["normalTexture"] = json!({ "index": 0, "texCoord": 0 });

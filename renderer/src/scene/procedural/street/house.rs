@@ -18,15 +18,15 @@ const BAYS_PER_CHUNK: u32 = 6;
 /// What a house looks like.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Style {
-    /// The front's material.
+    /// Material of the front.
     pub(super) wall: Surface,
-    /// The front's tint.
+    /// Tint of the front.
     pub(super) tint: [u8; 3],
     /// Whether the ground floor is shops.
     pub(super) shops: bool,
     /// Whether windows have shutters.
     pub(super) shutters: bool,
-    /// The awnings' tint.
+    /// Tint of the awnings.
     pub(super) cloth: [u8; 3],
 }
 
@@ -49,7 +49,7 @@ impl Style {
 
 /// A house in its own space: x along its front from its left end, y up, z towards the street.
 pub(super) struct House {
-    /// Where its front's left end stands.
+    /// Place of the left end of the house's front.
     pub(super) place: Place,
     /// Length of its front, metres.
     pub(super) width: f32,
@@ -59,9 +59,9 @@ pub(super) struct House {
     pub(super) mitre: [f32; 2],
     /// Storeys above the ground floor.
     pub(super) storeys: u32,
-    /// Its looks.
+    /// Looks of the house.
     pub(super) style: Style,
-    /// Of its own random choices.
+    /// Seed of the house's own random choices.
     pub(super) seed: u64,
 }
 

@@ -74,7 +74,7 @@ fn capital_leaves(mesh: &mut Mesh, height: f32, r: f32, detail: &Detail) {
 /// An opening with a round arch.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Arch {
-    /// Half its width, and the radius of its arch.
+    /// Half the width of the opening, which is the radius of its arch.
     pub(super) half: f32,
     /// Height at which the arch springs.
     pub(super) spring: f32,

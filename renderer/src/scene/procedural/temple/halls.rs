@@ -22,7 +22,7 @@ const END: f32 = -18.0;
 const CROSS_WALL: f32 = 0.5;
 
 impl Site<'_> {
-    /// From the gate to the stairs of the sanctuary.
+    /// Builds from the gate to the stairs of the sanctuary.
     pub(super) fn nave(&mut self) {
         let detail = self.detail;
         for tile in floor([-WALL, CHANCEL], [WALL, GATE], FLOOR, Surface::Flags, detail) {
@@ -128,7 +128,7 @@ impl Site<'_> {
         }
     }
 
-    /// From the top of the stairs to the arch of the cloister, under a dome.
+    /// Builds from the top of the stairs to the arch of the cloister, under a dome.
     pub(super) fn sanctuary(&mut self) {
         let detail = self.detail;
         for tile in floor([-WALL, END - CROSS_WALL], [WALL, 16.8], HIGH_FLOOR, Surface::Mosaic, detail) {

@@ -1,4 +1,4 @@
-// A tile of ASSIGN_GROUP lights against a group of as many visible clusters, a thread each.
+// A packet of ASSIGN_WORKGROUP lights against a group of as many visible clusters, a thread each.
 //
 // The lights lie in shared memory, read by all threads at once, and the tests stand one behind the other without any
 // branch around them: processors with scalar loads, and those that imitate a GPU, then load a light once for all.
@@ -7,12 +7,12 @@
 #include "lib/intersect.glsl"
 #extension GL_EXT_control_flow_attributes : require
 
-shared LightVolume tile_volumes[ASSIGN_GROUP];
+shared LightVolume packet_volumes[ASSIGN_WORKGROUP];
 
-// Puts this thread's light into the tile.
-void fill_tile(LightVolume volume)
+// Puts this thread's light into the packet.
+void fill_packet(LightVolume volume)
 {
-    tile_volumes[gl_LocalInvocationID.x] = volume;
+    packet_volumes[gl_LocalInvocationID.x] = volume;
     barrier();
 }
 
@@ -22,14 +22,14 @@ CellBounds cell_of_visible(uint visible)
     return cell_bounds(cell_of_linear(visible_clusters[min(visible, max(state.visible, 1u) - 1u)]));
 }
 
-// A bit for each of the first `count` lights of the tile that meets the cell.
+// A bit for each of the first `count` lights of the packet that meets the cell.
 uvec2 lights_met(CellBounds cell, uint count)
 {
     uvec2 met = uvec2(0u);
     [[unroll]] for (uint i = 0u; i < 32u; ++i)
-        met.x |= uint(meets(cell, tile_volumes[i])) << i;
+        met.x |= uint(meets(cell, packet_volumes[i])) << i;
     [[unroll]] for (uint i = 0u; i < 32u; ++i)
-        met.y |= uint(meets(cell, tile_volumes[32u + i])) << i;
+        met.y |= uint(meets(cell, packet_volumes[32u + i])) << i;
     uint there = min(count, 32u), beyond = max(count, 32u) - 32u;
     return met & uvec2(there == 32u ? 0xFFFFFFFFu : (1u << there) - 1u, beyond == 32u ? 0xFFFFFFFFu : (1u << beyond) - 1u);
 }

@@ -1,9 +1,9 @@
-//! One frame in flight.
+//! Room for one frame in flight, which frames take in turn.
 
 use crate::buffers::BufferName;
 use crate::clustering::make_buffer;
 use crate::draw_list::DrawList;
-use crate::draw_slots::SlotOrder;
+use crate::drawables::DrawableOrder;
 use crate::gpu_interface::{DrawCounts, MAX_VIEWS, ViewData};
 use crate::pass::Timestamps;
 use crate::passes::readback::STATE_BYTES;
@@ -12,32 +12,32 @@ use crate::{Error, Result};
 use ash::vk;
 use std::sync::Arc;
 
-/// One frame in flight: commands, fence, queries and what the host writes and reads.
-pub struct Slot {
+/// Room for one frame in flight: commands, fence, queries and what the host writes and reads.
+pub struct FrameSlot {
     context: Arc<Context>,
     pool: vk::CommandPool,
-    /// Recorded anew each frame.
+    /// Command buffer, recorded anew each frame.
     pub commands: vk::CommandBuffer,
     /// Signalled when the frame has ended.
     pub fence: vk::Fence,
-    /// Its scopes' times.
+    /// Times of the scopes of the frame.
     pub timestamps: Timestamps,
     /// [`ViewData`] of all views, mapped.
     pub views: Buffer,
-    /// Of each view, whether it sees the world in a mirror.
+    /// Whether each view sees the world in a mirror.
     pub mirrored: Vec<bool>,
-    /// Each clustering's state, mapped.
+    /// State of each clustering, mapped.
     pub states: Buffer,
     /// What each view draws, and all at once, where the host culls.
     pub draw_lists: Vec<DrawList>,
     /// In which order each view draws, and all at once, where the device culls.
-    pub slot_orders: Vec<SlotOrder>,
-    /// [`DrawCounts`] and the transparent slots of all views in their order, mapped.
+    pub drawable_orders: Vec<DrawableOrder>,
+    /// [`DrawCounts`] and the transparent drawables of all views in their order, mapped.
     pub draw_order: Buffer,
 }
 
-impl Slot {
-    /// One for so many views of a scene that draws so much.
+impl FrameSlot {
+    /// Room for a frame of `views` views of a scene that draws as much as `counts` says.
     ///
     /// # Errors
     /// The device is out of memory.
@@ -75,7 +75,7 @@ impl Slot {
                 Memory::Readback,
             )?,
             draw_lists: vec![DrawList::default(); views + 1],
-            slot_orders: vec![SlotOrder::default(); views + 1],
+            drawable_orders: vec![DrawableOrder::default(); views + 1],
             draw_order: draw_order(context, views, counts)?,
         })
     }
@@ -111,7 +111,7 @@ impl Slot {
     }
 }
 
-impl Drop for Slot {
+impl Drop for FrameSlot {
     fn drop(&mut self) {
         let device = &self.context.device;
         unsafe {
@@ -123,7 +123,7 @@ impl Drop for Slot {
     }
 }
 
-/// Counts, and room for the order of every view's transparent slots.
+/// Counts, and room for the order of every view's transparent drawables.
 fn draw_order(context: &Arc<Context>, views: usize, counts: DrawCounts) -> Result<Buffer> {
     let size = size_of::<DrawCounts>() + 4 * views * counts.transparents as usize;
     let buffer = make_buffer(context, BufferName::DrawOrder, size as u64, Memory::Upload)?;
