@@ -7,7 +7,7 @@
 //! | bounds tested against lights | [`ClusterBounds`] |
 //! | list store | [`ListStore`] |
 //!
-//! [`plan`] makes the grids, [`capacities`] sizes their buffers, [`record`] runs their passes, `lookup/clustered.glsl` walks
+//! [`plan()`] makes the grids, [`capacities`] sizes their buffers, [`record()`] runs their passes, `lookup/clustered.glsl` walks
 //! their lists, [`twin`] does the same on the CPU. What the assignment works with is in [`crate::assign`].
 
 mod plan;
