@@ -45,6 +45,7 @@ pub mod recording;
 pub mod replay;
 pub mod report;
 pub mod scene;
+pub mod selftest;
 pub mod still;
 pub mod sweep;
 pub mod targets;

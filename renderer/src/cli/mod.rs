@@ -11,6 +11,7 @@ mod interrupt;
 mod replay;
 mod report;
 mod scene;
+mod selftest;
 mod still;
 mod usage;
 
@@ -44,7 +45,7 @@ const EXIT_CODES: &str = "\
 Exit codes:
   0    done
   1    the program or the driver misbehaved: a validation message, a lost device;
-       or `compare` found counters that differ
+       `compare` found counters that differ, or `selftest` something wrong
   2    something to be mended: a flag, a file, a missing device
   3    some runs of a replay failed; each left OUT/<run>.error.json, and the others are complete
   130  interrupted; the frame was finished and what was complete is kept
@@ -68,6 +69,8 @@ enum Command {
     /// Measure one part by itself
     #[command(subcommand)]
     Bench(bench::Bench),
+    /// Whether a device and its driver are fit to be measured: timestamps, lists, pictures, counters
+    Selftest(selftest::Args),
     /// List the Vulkan devices, with the limits that matter
     Devices,
     /// Print a scene's triangles, materials, textures and bounds
@@ -105,6 +108,7 @@ fn dispatch(command: Command, console: &Console) -> Result<()> {
         Command::Still(args) => still::run(*args, console),
         Command::Compare(args) => compare::run(&args, console),
         Command::Bench(args) => bench::run(args, console),
+        Command::Selftest(args) => selftest::run(args, console),
         Command::Devices => devices::run(console),
         Command::Scene(args) => scene::run(&args, console),
         Command::ImportRecording(args) => import_recording::run(&args, console),

@@ -18,8 +18,9 @@ mod requirements;
 mod session;
 mod slot;
 mod targets;
+pub(crate) mod workbench;
 
-pub use count::{COUNTING_SLOT, CountedFrame, count_frame};
+pub use count::{COUNTING_SLOT, CountedFrame, count_frame, look_at_frame};
 pub use counted::Counted;
 pub use growth::nothing;
 pub use mode::{LargestGrid, Mode, variant};

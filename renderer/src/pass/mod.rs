@@ -10,7 +10,7 @@ mod transfer;
 pub use access::{Access, Use};
 pub use compute::{DepthImage, Dispatch, Push, Size};
 pub use declared::Declared;
-pub use recorder::{FrameTracker, Recorder, ScopeName, ScopeSpan, ScopeTree, Timestamps};
+pub use recorder::{Faults, FrameTracker, Recorder, ScopeName, ScopeSpan, ScopeTree, Timestamps};
 pub use transfer::BufferCopy;
 
 #[cfg(test)]

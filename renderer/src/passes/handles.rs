@@ -52,8 +52,7 @@ pub struct VisibleClusters {
 }
 
 impl VisibleClusters {
-    /// Those that a test put there.
-    #[cfg(test)]
+    /// Those that were put there by hand, on a workbench.
     pub(crate) fn given(clustering: usize) -> Self {
         Self { clustering }
     }

@@ -17,6 +17,7 @@ pub mod list_clusters;
 pub mod mark;
 pub mod pixel_clusters;
 pub mod pixel_maps;
+pub mod probes;
 pub mod readback;
 pub mod resolve;
 pub mod scan;
