@@ -12,6 +12,7 @@ mod handles;
 pub mod hierarchy;
 mod inputs;
 pub mod lights;
+pub mod limit;
 pub mod lines;
 pub mod list_clusters;
 pub mod mark;
