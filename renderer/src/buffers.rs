@@ -30,7 +30,7 @@ pub use sizes::ClusteringSizes;
 
 use crate::gpu_interface::{
     BLOCK_WORDS, COUNTER_COUNT, Candidate, ClusterGroup, ClusteringState, DISPATCH_COUNT, DispatchSize,
-    GridData, InstanceData, LightData, LightNode, LightVolume, PixelData,
+    GridData, InstanceData, LightData, LightNode, LightVolume, MEASUREMENT_WORDS, PixelData,
 };
 use info::{buffer, bytes};
 
@@ -123,6 +123,10 @@ buffers! {
     Pixels = buffer("pixels", Owner::Clustering)
         .storage("PixelData pixels[]")
         .sized(|s| s.counted(bytes::<PixelData>(s.pixels)));
+    /// What the self-test measures, in atemporal runs.
+    Measurements = buffer("measurements", Owner::Clustering)
+        .storage("uint measurements[]")
+        .sized(|s| s.counted(bytes::<u32>(MEASUREMENT_WORDS)));
     /// The scene's instances, in drawing order.
     Instances = buffer("instances", Owner::Scene)
         .storage("InstanceData instances[]")

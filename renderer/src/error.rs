@@ -31,6 +31,9 @@ pub enum Error {
     /// Two result sets that should be equal are not.
     #[error("{0}")]
     Difference(String),
+    /// The device or its driver is not fit to be measured.
+    #[error("{0}")]
+    Unfit(String),
     /// The user interrupted; what was complete is kept.
     #[error("{0}")]
     Interrupted(String),
@@ -51,7 +54,7 @@ impl Error {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Input(_) | Self::File { .. } | Self::Device(_) => 2,
-            Self::Internal(_) | Self::Difference(_) => 1,
+            Self::Internal(_) | Self::Difference(_) | Self::Unfit(_) => 1,
             Self::Failures(_) => 3,
             Self::Interrupted(_) => 130,
         }

@@ -79,6 +79,9 @@ pub const SORT_DIGITS: u32 = 1 << SORT_BITS;
 /// Items that one thread of the sort takes.
 pub const SORT_BLOCK: u32 = 128;
 
+/// Words that the self-test measures into.
+pub const MEASUREMENT_WORDS: u64 = 4096;
+
 /// How many 64-bit counters the atemporal run has: as many as [`DeviceCounts`] has fields.
 pub const COUNTER_COUNT: usize = DeviceCounts::NAMES.len();
 

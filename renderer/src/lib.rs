@@ -46,6 +46,7 @@ pub mod recording;
 pub mod replay;
 pub mod report;
 pub mod scene;
+pub mod selftest;
 pub mod stats;
 pub mod still;
 pub mod sweep;

@@ -5,6 +5,7 @@
 mod debug;
 mod graphics;
 mod lists;
+mod probes;
 mod variant;
 
 pub use debug::{DebugPipelines, Line, SPHERE_VERTICES};

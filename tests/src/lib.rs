@@ -3,13 +3,15 @@
 pub mod program;
 pub mod scenes;
 
+pub use manylight::selftest::{METHODS, difference};
+
 use flate2::read::GzDecoder;
 use image::RgbImage;
 use manylight::config::Config;
 use manylight::inputs::Inputs;
 use manylight::measure::{ClusterLists, FrameCounts, FrameTimes, ViewPixels};
 use manylight::methods::Method;
-use manylight::output::{PlannedRun, planned_runs, tone_map};
+use manylight::output::{PlannedRun, planned_runs};
 use manylight::replay::{RunResult, RunSink, Watch, replay};
 use std::fs::File;
 use std::io::Read;
@@ -19,18 +21,6 @@ use std::sync::atomic::AtomicBool;
 
 /// The environment variable that rewrites golden files instead of comparing with them.
 pub const BLESS: &str = "MANYLIGHT_BLESS";
-
-/// Brute force over all lights, the truth, the six methods of the default replay, and the others that are usual.
-pub const METHODS: [&str; 8] = [
-    "all-lights",
-    "indi-persp-64",
-    "encl-persp-64",
-    "indi-ortho-4",
-    "encl-ortho-4",
-    "indi-displ-64-32",
-    "encl-displ-64-32",
-    "tiled-16",
-];
 
 /// Methods by their names.
 ///
@@ -171,20 +161,4 @@ pub fn run_inputs(mut config: Config, inputs: &Inputs) -> Vec<Run> {
     replay(&config, inputs, &planned_runs(&config), &watch, &mut collect)
         .unwrap_or_else(|error| panic!("{error}"));
     collect.runs
-}
-
-/// Largest differences of colour between two pictures of one size: after tone mapping in steps of 1/255, and relative in HDR.
-pub fn difference(a: &ViewPixels, b: &ViewPixels) -> (u8, f32) {
-    let rgb = |pixels: &ViewPixels, at: usize| [0, 1, 2].map(|channel| pixels.color[at][channel].to_f32());
-    let mut most = (0, 0.0f32);
-    for at in 0..a.color.len() {
-        let (x, y) = (rgb(a, at), rgb(b, at));
-        let (mapped_x, mapped_y) = (tone_map(x), tone_map(y));
-        for channel in 0..3 {
-            most.0 = most.0.max(mapped_x[channel].abs_diff(mapped_y[channel]));
-            let scale = x[channel].abs().max(y[channel].abs()).max(1e-3);
-            most.1 = most.1.max((x[channel] - y[channel]).abs() / scale);
-        }
-    }
-    most
 }

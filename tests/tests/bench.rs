@@ -13,7 +13,21 @@ fn assignment_is_drawn_over_lights_and_over_clusters() {
     printed(command.arg("--out").arg(out.path().join("assign.csv")));
     let read = |name: &str| fs::read_to_string(out.path().join(name)).unwrap();
     let ways = 3;
-    assert_eq!(read("assign.csv").lines().count(), 1 + 2 * 2 * ways);
+    let table = read("assign.csv");
+    assert_eq!(table.lines().count(), 1 + 2 * 2 * (ways + 1));
+    let mut rows = csv::Reader::from_reader(table.as_bytes());
+    let header = rows.headers().unwrap().clone();
+    let place = |name: &str| header.iter().position(|column| column == name).unwrap();
+    let number = |row: &csv::StringRecord, name: &str| row[place(name)].parse::<f64>().unwrap();
+    let mut limit = f64::NAN;
+    for row in rows.records().map(Result::unwrap) {
+        if &row[place("assign")] == "limit" {
+            limit = number(&row, "gpu_ms");
+            assert!(limit > 0.0 && number(&row, "over_limit") == 1.0, "{table}");
+        } else {
+            assert!((number(&row, "over_limit") - number(&row, "gpu_ms") / limit).abs() < 1e-9, "{table}");
+        }
+    }
     assert_eq!(read("assign.svg").matches("mark-line").count(), 2 * ways);
     assert_eq!(read("assign_clusters.svg").matches("mark-line").count(), 2 * ways);
     let exponents = read("assign_exponents.csv");

@@ -5,7 +5,8 @@ use manylight::assign::{Clusters, Marking};
 use manylight::config::{Assign, Config, ExrFrames, FrameRange};
 use manylight::lights::Lighting;
 use manylight::measure::ClusteringCounts;
-use manylight_tests::{METHODS, Run, difference, methods, run};
+use manylight::selftest::{count_fault, picture_fault};
+use manylight_tests::{METHODS, Run, methods, run};
 
 fn config(recording: &str, msaa: u32, marking: Marking) -> Config {
     Config {
@@ -34,9 +35,7 @@ fn check_runs(config: Config) {
         let name = &run.planned.name;
         for ((frame, views), (_, truth_views)) in run.images.iter().zip(&truth.images) {
             for (view, truth_view) in views.iter().zip(truth_views) {
-                let (mapped, relative) = difference(view, truth_view);
-                assert!(mapped <= 1, "{name} frame {frame}: {mapped}/255 from all lights");
-                assert!(relative <= 0.005, "{name} frame {frame}: {relative} in HDR from all lights");
+                assert_eq!(picture_fault(view, truth_view), None, "{name} frame {frame}");
             }
         }
         check_counts(run, truth, marking);
@@ -44,27 +43,9 @@ fn check_runs(config: Config) {
 }
 
 fn check_counts(run: &Run, truth: &Run, marking: Marking) {
+    assert_eq!(run.counts.len(), truth.counts.len());
     for (counts, truth) in run.counts.iter().zip(&truth.counts) {
-        let name = &run.planned.name;
-        assert_eq!(counts.counters.fragments_without_cluster, 0, "{name}");
-        assert_eq!(counts.counters.fragments_shaded, truth.counters.fragments_shaded, "{name}");
-        assert_eq!(
-            counts.counters.needed_computations, truth.counters.needed_computations,
-            "{name} lost a light that is needed"
-        );
-        assert!(counts.counters.lighting_computations >= counts.counters.needed_computations, "{name}");
-        let marked: u64 =
-            counts.clusterings.iter().flat_map(|c| &c.clusters).map(|c| u64::from(c.fragments)).sum();
-        // The depth buffer holds one surface a sample; where several of equal depth meet, each is shaded.
-        let coplanar = counts.counters.fragments_shaded - marked;
-        let most = if marking == Marking::Geometry { 0 } else { counts.counters.fragments_shaded / 50 };
-        assert!(coplanar <= most, "{name}: {marked} marked, {} shaded", counts.counters.fragments_shaded);
-        let by_lights: u64 =
-            counts.lights_per_fragment.iter().flatten().map(|(_, fragments)| fragments).sum();
-        assert_eq!(by_lights, counts.counters.fragments_shaded, "{name}: histogram of lights per fragment");
-        for clustering in &counts.clusterings {
-            assert_eq!((clustering.light_indices_dropped, clustering.visible_clusters_dropped), (0, 0));
-        }
+        assert_eq!(count_fault(counts, truth, marking), None, "{} frame {}", run.planned.name, counts.frame);
     }
 }
 

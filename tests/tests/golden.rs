@@ -4,8 +4,8 @@
 
 use manylight::config::{Config, ExrFrames, FrameRange};
 use manylight::output::image_preview;
+use manylight::selftest::{GOLDEN_COLUMNS, golden_row};
 use manylight_tests::{METHODS, Run, blessing, data, methods, run};
-use std::fmt::Write as _;
 use std::fs;
 
 fn golden(names: &[&str], scene: &str, recording: &str, file: &str) {
@@ -46,31 +46,10 @@ fn compare_image(run: &Run, scene: &str) {
 }
 
 fn compare_counters(runs: &[Run], file: &str) {
-    let mut text = String::from("run,frame,clusters,visible_clusters,light_indices,lighting_computations,");
-    text.push_str("needed_computations,fragments_shaded,lists_hash\n");
-    for run in runs {
-        for counts in &run.counts {
-            let sum = |value: fn(&manylight::measure::ClusteringCounts) -> u64| -> u64 {
-                counts.clusterings.iter().map(value).sum()
-            };
-            let hashes: Vec<String> =
-                counts.clusterings.iter().map(|c| format!("{:016x}", c.lists_hash)).collect();
-            writeln!(
-                text,
-                "{},{},{},{},{},{},{},{},{}",
-                run.planned.name,
-                counts.frame,
-                sum(|c| c.dimensions.iter().map(|&d| u64::from(d)).product()),
-                sum(|c| c.visible_clusters),
-                sum(|c| c.light_indices),
-                counts.counters.lighting_computations,
-                counts.counters.needed_computations,
-                counts.counters.fragments_shaded,
-                hashes.join(" ")
-            )
-            .unwrap();
-        }
-    }
+    let rows =
+        runs.iter().flat_map(|run| run.counts.iter().map(|counts| golden_row(&run.planned.name, counts)));
+    let lines: Vec<String> = [GOLDEN_COLUMNS.join(",")].into_iter().chain(rows).collect();
+    let text = lines.join("\n") + "\n";
     let path = data(&format!("golden/{file}.csv"));
     if blessing() {
         fs::write(&path, text).unwrap();

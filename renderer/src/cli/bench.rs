@@ -9,7 +9,7 @@ use crate::inputs::Inputs;
 use crate::lights::Lighting;
 use crate::output::{prepare_file, write_whole};
 use crate::replay::Watch;
-use crate::replay::bench::{AssignBench, BenchRow, bench_assign};
+use crate::replay::bench::{AssignBench, BenchRow, LIMIT, bench_assign};
 use crate::report::assign_bench::{Sample, write_figures};
 use crate::{Error, Result};
 use clap::Subcommand;
@@ -115,7 +115,8 @@ fn assign(args: &Args, console: &Console) -> Result<()> {
         rows.iter().try_for_each(|row| csv.serialize(row))?;
         csv.flush()
     })?;
-    let samples = rows.iter().map(sample).collect::<Result<Vec<_>>>()?;
+    let ways = rows.iter().filter(|row| row.assign != LIMIT);
+    let samples = ways.map(sample).collect::<Result<Vec<_>>>()?;
     let figures = write_figures(&args.out, &samples)?;
     console.result(&Rows(rows))?;
     console.note(&format!("results are in {}", args.out.display()));
@@ -131,11 +132,11 @@ struct Rows(Vec<BenchRow>);
 impl fmt::Display for Rows {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.iter().try_for_each(|row| {
-            let BenchRow { lights, method, assign, test, frame, gpu_ms, light_indices, .. } = row;
+            let BenchRow { lights, method, assign, test, frame, gpu_ms, over_limit, light_indices, .. } = row;
             writeln!(
                 f,
-                "{lights} lights, {method}, frame {frame}, {assign}, {test}: {gpu_ms:.3} ms, {light_indices} light \
-                 indices"
+                "{lights} lights, {method}, frame {frame}, {assign}, {test}: {gpu_ms:.3} ms, {over_limit:.1} times the \
+                 limit, {light_indices} light indices"
             )
         })
     }

@@ -185,6 +185,7 @@ fn kind(error: &Error) -> &'static str {
         Error::Internal(_) => "internal",
         Error::Failures(_) => "failures",
         Error::Difference(_) => "difference",
+        Error::Unfit(_) => "unfit",
         Error::Interrupted(_) => "interrupted",
     }
 }

@@ -12,6 +12,7 @@ mod interrupt;
 mod replay;
 mod report;
 mod scene;
+mod selftest;
 mod still;
 mod usage;
 
@@ -45,7 +46,8 @@ const EXIT_CODES: &str = "\
 Exit codes:
   0    done
   1    the program or the driver misbehaved: a validation message, a lost device;
-       or `compare` found counters that differ, or a time slower than --fail-slower allows
+       `compare` found counters that differ, or a time slower than --fail-slower allows;
+       or `selftest` something wrong
   2    something to be mended: a flag, a file, a missing device
   3    some runs of a replay failed; each left OUT/<run>.error.json, and the others are complete
   130  interrupted; the frame was finished and what was complete is kept
@@ -71,6 +73,8 @@ enum Command {
     /// Measure one part by itself
     #[command(subcommand)]
     Bench(bench::Bench),
+    /// Whether a device and its driver are fit to be measured: timestamps, lists, pictures, counters
+    Selftest(selftest::Args),
     /// List the Vulkan devices, with the limits that matter
     Devices,
     /// Print a scene's triangles, materials, textures and bounds
@@ -109,6 +113,7 @@ fn dispatch(command: Command, console: &Console) -> Result<()> {
         Command::Compare(args) => compare::run(&args, console),
         Command::Export(args) => export::run(&args, console),
         Command::Bench(args) => bench::run(args, console),
+        Command::Selftest(args) => selftest::run(args, console),
         Command::Devices => devices::run(console),
         Command::Scene(args) => scene::run(&args, console),
         Command::ImportRecording(args) => import_recording::run(&args, console),

@@ -31,6 +31,22 @@ pub struct CountedFrame {
 pub fn count_frame(
     engine: &mut Engine,
     session: &mut Session,
+    input: (&FramePlan, FrameLights),
+    about: (f64, Option<&[String]>),
+    lists: &mut dyn FnMut(ClusterLists) -> Result<()>,
+) -> Result<CountedFrame> {
+    let frame = look_at_frame(engine, session, input, about, lists)?;
+    frame.counts.check()?;
+    Ok(frame)
+}
+
+/// The same, whatever the counts are.
+///
+/// # Errors
+/// Whatever fails on the device or in `lists`.
+pub fn look_at_frame(
+    engine: &mut Engine,
+    session: &mut Session,
     (plan, lights): (&FramePlan, FrameLights),
     (time_s, view_names): (f64, Option<&[String]>),
     lists: &mut dyn FnMut(ClusterLists) -> Result<()>,
@@ -49,7 +65,6 @@ pub fn count_frame(
     let extend = (&mut readback::clear_counters as _, &mut look_closer as _);
     engine.render(session, COUNTING_SLOT, (plan, lights), extend)?;
     let counts = read_counts(engine, session, plan, (lights.list.len() as u32, time_s), lists)?;
-    counts.check()?;
     let views = images.iter().zip(view_names.unwrap_or_default()).zip(plan.views.iter().enumerate());
     let pixels = views.map(|((buffer, name), (number, view))| ViewPixels {
         dimensions: plan.grid_of(engine.method(), number).map_or([0; 3], |grid| grid.dimensions),

@@ -18,8 +18,9 @@ mod plan;
 mod requirements;
 mod session;
 mod targets;
+pub(crate) mod workbench;
 
-pub use count::{COUNTING_SLOT, CountedFrame, count_frame};
+pub use count::{COUNTING_SLOT, CountedFrame, count_frame, look_at_frame};
 pub use counted::Counted;
 pub use frame_slot::FrameSlot;
 pub use growth::nothing;

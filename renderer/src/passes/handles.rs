@@ -52,8 +52,7 @@ pub struct VisibleClusters {
 }
 
 impl VisibleClusters {
-    /// Visible clusters that a test put on the device.
-    #[cfg(test)]
+    /// Visible clusters that were put there by hand, on a workbench.
     pub(crate) fn given(clustering: usize) -> Self {
         Self { clustering }
     }

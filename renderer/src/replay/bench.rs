@@ -1,12 +1,13 @@
 //! Light assignment alone, timed by every way with every test in one process, in turn: what runs on the machine beside
 //! it slows all alike.
 
+mod limit;
 mod scopes;
 
+pub use limit::LIMIT;
 pub use scopes::{ScopesRow, bench_scopes};
 
 use super::Watch;
-use crate::Result;
 use crate::assign::Assigner;
 use crate::config::{Config, FrameRange, Test};
 use crate::engine::{
@@ -19,6 +20,8 @@ use crate::lights::{FrameLights, Lighting, LightsFrom};
 use crate::methods::Method;
 use crate::output::makes_lists;
 use crate::passes::readback;
+use crate::{Error, Result};
+use limit::Limit;
 use serde::Serialize;
 
 /// What `bench assign` times.
@@ -56,7 +59,7 @@ pub struct BenchRow {
     pub lights: u32,
     /// Name of the method.
     pub method: String,
-    /// The way: `brute`, `hierarchy` or `scatter`.
+    /// The way: `brute`, `hierarchy` or `scatter`; or [`LIMIT`], the least that any way can do.
     pub assign: String,
     /// The test of light against cluster.
     pub test: String,
@@ -71,6 +74,8 @@ pub struct BenchRow {
     /// Time from lights to lists: transform or culling, build, count, offsets and assign. Least of the repeats,
     /// milliseconds.
     pub gpu_ms: f64,
+    /// `gpu_ms` over that of the limit for these lists.
+    pub over_limit: f64,
 }
 
 /// Times `bench` by the config's methods, scene, recording and resolution; rows come as soon as they are measured.
@@ -115,33 +120,75 @@ struct TimedFrame<'a> {
     shaded: bool,
 }
 
+/// All ways with one test, each with its engine.
+struct Ways {
+    /// That of the limit first.
+    rows: Vec<BenchRow>,
+    engines: Vec<Engine>,
+    limit: Limit,
+}
+
+impl Ways {
+    /// Times each once more. The limit is timed on the lists of the last way.
+    fn time(&mut self, session: &mut Session, frame: &TimedFrame, watch: &Watch) -> Result<()> {
+        let [limit, ways @ ..] = &mut self.rows[..] else { return Ok(()) };
+        for (engine, row) in self.engines.iter_mut().zip(ways) {
+            watch.check()?;
+            row.gpu_ms = row.gpu_ms.min(frame.time(session, engine)?);
+            watch.step();
+        }
+        if let Some(engine) = self.engines.last_mut() {
+            limit.gpu_ms = limit.gpu_ms.min(self.limit.time(session, engine)?);
+        }
+        Ok(())
+    }
+
+    /// The rows, with how far each is from the limit.
+    fn into_rows(self) -> Vec<BenchRow> {
+        let limit_ms = self.rows[0].gpu_ms;
+        let over = |row: BenchRow| BenchRow { over_limit: row.gpu_ms / limit_ms, ..row };
+        self.rows.into_iter().map(over).collect()
+    }
+}
+
 impl TimedFrame<'_> {
     fn measure(&self, session: &mut Session, bench: &AssignBench, watch: &Watch) -> Result<Vec<BenchRow>> {
-        let mut rows = vec![];
-        let mut engines = vec![];
-        for test in bench.tests_of(&self.run.methods[0]) {
-            let run = &Config { test: vec![Test::Named(test)], ..self.run.clone() };
-            let tested = TimedFrame { run, ..*self };
-            for &assigner in &bench.assigners {
-                rows.push(tested.count(session, (assigner, test))?);
-                engines.push(tested.engine(session, assigner, false)?);
-            }
-        }
+        let tests = bench.tests_of(&self.run.methods[0]);
+        let ways = tests.into_iter().map(|test| self.ways(session, bench, test));
+        let mut ways = ways.collect::<Result<Vec<_>>>()?;
         for _ in 0..=bench.repeats {
             // The first turn warms up, and counts as the others: it is never the least.
-            for (engine, row) in engines.iter_mut().zip(&mut rows) {
-                watch.check()?;
-                row.gpu_ms = row.gpu_ms.min(self.time(session, engine)?);
-                watch.step();
-            }
+            ways.iter_mut().try_for_each(|ways| ways.time(session, self, watch))?;
         }
-        Ok(rows)
+        Ok(ways.into_iter().flat_map(Ways::into_rows).collect())
+    }
+
+    /// All ways with a test, counted.
+    fn ways(&self, session: &mut Session, bench: &AssignBench, test: SphereTest) -> Result<Ways> {
+        let run = &Config { test: vec![Test::Named(test)], ..self.run.clone() };
+        let tested = TimedFrame { run, ..*self };
+        let (mut rows, mut engines) = (vec![], vec![]);
+        for &assigner in &bench.assigners {
+            rows.push(tested.count(session, (assigner, test))?);
+            engines.push(tested.engine(session, assigner, false)?);
+        }
+        let (Some(row), Some(engine)) = (rows.first(), engines.last_mut()) else {
+            return Err(Error::input("assign: name at least one way, such as scatter"));
+        };
+        let limit_row = BenchRow { assign: LIMIT.to_owned(), intersection_tests: 0, ..row.clone() };
+        rows.insert(0, limit_row);
+        let last = bench.assigners[bench.assigners.len() - 1];
+        let limit = Limit::new(session, engine, (run, &tested.mode(last, false)))?;
+        Ok(Ways { rows, engines, limit })
+    }
+
+    fn mode(&self, assigner: Assigner, counting: bool) -> Mode {
+        Mode { assigner, counting, ..Mode::counting(self.run, self.lights.list.len() as u32) }
     }
 
     /// An engine that has rendered the frame once.
     fn engine(&self, session: &mut Session, assigner: Assigner, counting: bool) -> Result<Engine> {
-        let lights = self.lights.list.len() as u32;
-        let mode = Mode { assigner, counting, ..Mode::counting(self.run, lights) };
+        let mode = self.mode(assigner, counting);
         let mut engine =
             Engine::new(session, self.run, LargestGrid::of(std::slice::from_ref(self.plan)), mode)?;
         engine.shaded = self.shaded;
@@ -175,6 +222,7 @@ impl TimedFrame<'_> {
             light_indices: sum(|state| state.index_total),
             intersection_tests,
             gpu_ms: f64::INFINITY,
+            over_limit: f64::NAN,
         })
     }
 

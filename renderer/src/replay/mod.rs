@@ -62,7 +62,7 @@ pub struct Watch<'a> {
 }
 
 impl Watch<'_> {
-    fn check(&self) -> Result<()> {
+    pub(crate) fn check(&self) -> Result<()> {
         if self.interrupt.load(Ordering::Relaxed) {
             return Err(Error::Interrupted(
                 "interrupted: the run at hand was left, complete runs are kept".into(),
@@ -71,7 +71,7 @@ impl Watch<'_> {
         Ok(())
     }
 
-    fn step(&self) {
+    pub(crate) fn step(&self) {
         (self.progress)();
     }
 }

@@ -2,16 +2,6 @@
 
 use super::*;
 use crate::config::{Assign, Test};
-use crate::gpu_interface::GridData;
-use std::mem::offset_of;
-
-/// Whether there is room for the bits of lists and the lights of groups; where there is none, lights are counted and
-/// sorted, and each group tests all candidates.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Room {
-    Plenty,
-    None,
-}
 
 /// The lists of every set of lights among the clusters of `bits`.
 fn lists_of(
@@ -28,40 +18,16 @@ fn lists_of(
     sets.iter()
         .map(|lights| {
             bench.write(&plan, lights);
-            if lists_room == Room::None {
-                let grid = &bench.engine.clusterings[0].host[0][BufferName::Grid];
-                grid.write(offset_of!(GridData, mask_capacity) as u64, &[0u32]);
-                grid.write(offset_of!(GridData, group_capacity) as u64, &[0u32]);
-            }
+            bench.leave(lists_room);
             bench.compact(bits);
             bench.lists()
         })
         .collect()
 }
 
-pub(super) fn random_lights(
-    count: u32,
-    seed: u64,
-    extent: f32,
-    radius: impl Fn(f32) -> f32,
-) -> Vec<PointLight> {
-    let mut random = noise(seed);
-    let mut unit = move || (random() % 65_536) as f32 / 65_536.0;
-    (0..count)
-        .map(|_| PointLight {
-            position: [0; 3].map(|_| (2.0 * unit() - 1.0) * extent),
-            tint: [1.0; 3],
-            intensity: 1.0,
-            cutoff: 0.5,
-            r0: 0.01,
-            r1: radius(unit()),
-        })
-        .collect()
-}
-
 /// Lights that trees and ranges may stumble over, each set beside ordinary ones of a like number.
 fn light_sets() -> Vec<Vec<PointLight>> {
-    let ahead = view().pose.transform_point(DVec3::new(0.5, 0.3, -9.0)).as_vec3().to_array();
+    let ahead = pose().transform_point(DVec3::new(0.5, 0.3, -9.0)).as_vec3().to_array();
     let one_place =
         |count| vec![PointLight { position: ahead, ..random_lights(1, 3, 1.0, |_| 6.0)[0] }; count];
     vec![

@@ -3,9 +3,11 @@
 use super::*;
 use crate::culling::WorldBox;
 use crate::drawables::DrawableOrder;
-use crate::geometry::views::Mirror;
+use crate::geometry::Frustum;
+use crate::geometry::views::{Mirror, Pose, View};
 use crate::gpu_interface::DrawCommand;
 use crate::passes::cull;
+use glam::DQuat;
 
 /// How close to a plane f32 may decide otherwise, metres: the planes' slack is below it.
 const EPSILON: f64 = 1e-3;
@@ -71,7 +73,9 @@ fn in_order(bench: &Bench, view: &View) -> Vec<u32> {
 fn compare(scene: &str) {
     let room = Capacities { visible_clusters: 16, light_indices: 16 };
     let scene = by_name(scene).expect("a built-in scene");
-    let mut bench = Bench::with_scene(&config(), &scene, (PERSP, box_grid([8, 1, 1])), &lights(10), room);
+    let few = lights(10);
+    let case = Case { method: PERSP, grid: box_grid([8, 1, 1]), lights: &few, capacities: room };
+    let mut bench = Bench::with_scene(&config(), &scene, case);
     let boxes: Vec<WorldBox> = bench.session.batches.boxes.clone();
     let mut counts = vec![];
     for view in views() {

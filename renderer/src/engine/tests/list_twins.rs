@@ -1,14 +1,14 @@
 //! Each step of hierarchy and scatter against its twin, which takes what the step before left on the device.
 
-use super::assign_equality::random_lights;
 use super::*;
-use crate::assign::{sort_passes, tree_depth};
+use crate::assign::tree_depth;
 use crate::config::{Assign, Test};
 use crate::cpu::{Candidate, CellRange, CulledLights, FoundLists, Visible};
 use crate::geometry::{LightVolume, SphereTest, VolumeKind};
 use crate::gpu_interface::{self as device, BLOCK_WORDS, COUNTER_COUNT, GridData, TREE_WIDTH};
 use crate::measure::DeviceCounts;
 use crate::passes::{cull_lights, hierarchy};
+use crate::selftest::sorted_items;
 use std::mem::offset_of;
 
 /// How small a margin is too close to call, metres and cells: f32 is good for a tenth of it here.
@@ -52,8 +52,7 @@ impl CulledDevice {
     }
 
     fn state(&mut self) -> ClusteringState {
-        self.bench.run(readback::states);
-        self.bench.engine.states(&self.bench.session, 0)[0]
+        self.bench.state().unwrap()
     }
 
     /// What the device has as candidates, and as their volumes.
@@ -173,9 +172,7 @@ fn the_hierarchy_equals_its_twin() {
 /// Checks keys and order, and gives the order: numbers of candidates.
 fn sorted_as_their_twin(culled: &mut CulledDevice, volumes: &[LightVolume]) -> Vec<u32> {
     let twin = cpu::keys(&culled.grid, volumes, culled.lights, 0.02);
-    let half = ((sort_passes(culled.lights) - 1) & 1) * culled.lights;
-    let words = culled.bench.download(BufferName::SortItems, 2 * (half as usize + volumes.len()));
-    let items: Vec<(u32, u32)> = words[2 * half as usize..].chunks_exact(2).map(|w| (w[0], w[1])).collect();
+    let items = sorted_items(&mut culled.bench, culled.lights, volumes.len() as u32).unwrap();
     let mut keys = vec![u32::MAX; volumes.len()];
     for &(key, number) in &items {
         keys[number as usize] = key;

@@ -1,9 +1,8 @@
 //! The tests of light against cluster on the device: equal to their CPU twins, and no light is ever lost.
 
-use super::assign_equality::random_lights;
 use super::*;
 use crate::config::Test;
-use crate::geometry::{CellTest, LightVolume, SphereTest};
+use crate::geometry::SphereTest;
 
 /// Each part of each test, alone and with others.
 const TESTS: [&str; 9] =
@@ -34,7 +33,7 @@ impl Case {
     }
 
     /// The list of each visible cluster, by brute force.
-    fn lists(&self, method: Method, test: SphereTest) -> Vec<Vec<u32>> {
+    fn lists(&self, method: Method, test: SphereTest) -> Lists {
         let room =
             Capacities { visible_clusters: self.grid.cluster_count() as u32, light_indices: 8_000_000 };
         let config = Config { test: vec![Test::Named(test)], ..config() };
@@ -42,7 +41,7 @@ impl Case {
         bench.compact(&self.bits);
         let lists = bench.lists();
         assert!(lists.indices.len() > 1000, "the case assigns next to nothing");
-        (0..self.visible.len()).map(|list| lists.of(list).to_vec()).collect()
+        lists
     }
 }
 
@@ -51,13 +50,7 @@ fn lists_equal_their_twin((method, grid): (Method, Grid), test: SphereTest, ligh
     let case = Case::new(grid, lights);
     let lists = case.lists(method, test);
     let twin = cpu::assign(&grid, &case.visible, &case.lights, test, 1e-4);
-    for (i, list) in lists.iter().enumerate() {
-        assert!(list.is_sorted(), "a list is not in ascending order");
-        let sure = |lights: &[u32]| -> Vec<u32> {
-            lights.iter().copied().filter(|light| !twin.borderline[i].contains(light)).collect()
-        };
-        assert_eq!(sure(list), sure(twin.list(i)), "{test}, cluster {}", case.visible[i]);
-    }
+    assert_eq!(list_checks::twin_fault(&lists, &twin), None, "{test}");
     let borderline: usize = twin.borderline.iter().map(Vec::len).sum();
     assert!(borderline * 200 < twin.indices.len(), "{test}: {borderline} pairs are too close to call");
 }
@@ -83,39 +76,15 @@ fn lists_of_all_tests_equal_their_twins() {
     }
 }
 
-/// Lights that touch one cluster each, by the last bit of their radius or little more; they lie in all directions from it,
-/// up to `farthest` metres away.
-fn touching_lights(grid: &Grid, visible: &[u32], farthest: f64) -> Vec<(u32, PointLight)> {
-    let mut random = noise(77);
-    let mut unit = move || f64::from(random() % 65_536) / 65_536.0;
-    let mut found = Vec::new();
-    while found.len() < 4000 {
-        let cluster = visible[(unit() * visible.len() as f64) as usize];
-        let cell = grid.cluster_at(cluster);
-        let inside = DVec3::from_array(cell.map(|index| f64::from(index) + unit()));
-        let away = DVec3::new(unit() - 0.5, unit() - 0.5, unit() - 0.5).normalize_or(DVec3::X);
-        let local = grid.point_at(inside) + away * farthest * 1e-3f64.powf(unit());
-        let position = grid.pose.transform_point(local).as_vec3();
-        let center = grid.pose.inverse_transform_point(position.as_dvec3());
-        let distance =
-            -CellTest::new(SphereTest::Exact, grid, cell).margin(&LightVolume::sphere(center, 0.0));
-        if distance > 0.01 {
-            let r1 = (distance as f32).next_up();
-            found.push((cluster, PointLight { position: position.to_array(), r1, ..lights(1)[0] }));
-        }
-    }
-    found
-}
-
 fn no_touching_light_is_lost(method: Method, grid: Grid, farthest: f64) {
     let visible = Case::new(grid, vec![]).visible;
     let (touched, lights): (Vec<u32>, Vec<PointLight>) =
-        touching_lights(&grid, &visible, farthest).into_iter().unzip();
+        touching_lights(&grid, &visible, farthest, 4000).unwrap().into_iter().unzip();
     let case = Case::new(grid, lights);
     for test in TESTS.map(|name| name.parse().unwrap()) {
         let lists = case.lists(method, test);
         for (light, cluster) in (0u32..).zip(&touched) {
-            let list = &lists[visible.binary_search(cluster).unwrap()];
+            let list = lists.of(visible.binary_search(cluster).unwrap());
             assert!(list.binary_search(&light).is_ok(), "{test}: cluster {cluster} lost light {light}");
         }
     }

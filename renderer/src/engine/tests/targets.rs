@@ -3,6 +3,7 @@
 use super::*;
 use crate::buffers::BufferSet;
 use crate::draw_list::SurfaceKind;
+use crate::passes::Eyes;
 use crate::passes::draws::{self, DepthUse, SurfacePass, SurfacePipelines};
 
 #[test]
