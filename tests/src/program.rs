@@ -43,7 +43,7 @@ pub fn printed(command: &mut Command) -> String {
 /// Runs a command that must refuse its input, and gives the one line on standard error.
 ///
 /// # Panics
-/// Where it does not end with exit code 2, or says more or less than one line.
+/// Where it does not end with exit code 2, or says more or less than one line that begins with `error: `.
 pub fn refused(command: &mut Command) -> String {
     let message = refused_with(command, 2);
     assert!(message.starts_with("error: "), "{command:?}: {message}");

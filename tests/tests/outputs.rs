@@ -2,7 +2,7 @@
 #![cfg(unix)]
 
 use manylight_tests::manylight;
-use manylight_tests::program::{output, refused, succeed, text};
+use manylight_tests::program::{output, refused, refused_with, succeed, text};
 use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::os::unix::ffi::OsStrExt;
@@ -81,7 +81,7 @@ fn what_cannot_be_printed_is_an_error() {
         assert_eq!(message, expected, "{command:?}");
     }
     for mut command in printing(out.path()) {
-        let message = refused(command.arg("--json").stdout(full()));
+        let message = refused_with(command.arg("--json").stdout(full()), 2);
         let message: serde_json::Value = serde_json::from_str(&message).unwrap();
         assert_eq!(message["error"]["exit_code"], 2, "{command:?}");
     }
@@ -181,7 +181,7 @@ fn a_path_that_is_no_text_is_named_or_works() {
         for json in [false, true] {
             let mut command = command(&["replay", "--frames", "300", "--runs", "0"]);
             command.args(json.then_some("--json")).arg(flag).arg(odd);
-            let message = refused(&mut command);
+            let message = refused_with(&mut command, 2);
             assert!(message.contains("xE9") && message.contains("UTF-8"), "{flag}: {message}");
         }
     }
