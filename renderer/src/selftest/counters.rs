@@ -1,5 +1,6 @@
 //! The same frame twice: once with every stage timed, once with the frame timed alone, so that no timestamp between passes
-//! makes one wait for another.
+//! makes one wait for another. A device that does one thing after the other hides what does not wait; with the validation layers
+//! on, these tell.
 
 use super::frames::{Look, METHODS};
 use super::{Context, Verdict};
