@@ -1,6 +1,6 @@
 //! Sizes of a clustering's buffers, and what a device must hold and dispatch for them: pure.
 
-use super::BufferName;
+use super::{BufferInfo, BufferName, Owner};
 use crate::assign::{self, Assigner, Clusters};
 use crate::gpu_interface::{ASSIGN_WORKGROUP, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS};
 use crate::measure::Capacities;
@@ -110,6 +110,15 @@ impl ClusteringSizes {
     /// Items of the longest prefix sum.
     fn scan_items(&self) -> u64 {
         self.words().max(self.visible()).max(self.digit_counts()).max(self.culled_light_words())
+    }
+
+    /// What the buffers of a clustering take, bytes, where so many frames are in flight.
+    pub fn bytes(&self, slots: u64) -> u64 {
+        let size = |info: &BufferInfo| info.size.map_or(0, |size| size(self));
+        let of =
+            |owner| BufferName::ALL.map(BufferName::info).into_iter().filter(move |info| info.owner == owner);
+        of(Owner::Clustering).map(size).sum::<u64>()
+            + slots * of(Owner::ClusteringFrame).map(size).sum::<u64>()
     }
 
     /// The most entries that the device's buffers hold.

@@ -30,9 +30,17 @@ impl<'a> Tracer<'a> {
         }
     }
 
+    /// Lets go what was kept of a run, which is made again.
+    pub fn forget(&mut self, run: u32) {
+        let stages = self.spans.len() / self.frames.len().max(1);
+        let mut owners = self.frames.iter().flat_map(|(owner, _)| std::iter::repeat_n(*owner, stages));
+        self.spans.retain(|_| owners.next() != Some(run));
+        self.frames.retain(|(owner, _)| *owner != run);
+    }
+
     /// The whole trace on two clocks. That of the host starts with the first stage. That of the device cannot be
     /// compared with it; its first stage is put where the first frame's recording ended, before which it did not run.
-    pub fn finish(self, tree: &ScopeTree, limits: &Limits) -> Vec<FrameTrace> {
+    pub fn finish(&self, tree: &ScopeTree, limits: &Limits) -> Vec<FrameTrace> {
         let Some(first) = self.spans.first() else { return vec![] };
         let cpu_origin = first.cpu_start;
         let gpu_origin = first.gpu_ticks.map_or(0, |ticks| ticks[0]);
