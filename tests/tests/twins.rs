@@ -150,7 +150,7 @@ fn compare_lists(method: &str, clusters: Clusters) {
         resolution: [160, 90],
         lights: vec![Lighting { count: 300, intensity: 20.0, cutoff: 0.5, r0: 0.1 }],
         frames: FrameRange { first: 300, end: Some(301), step: 1 },
-        runs: 0,
+        runs: 0.into(),
         ..Config::default()
     };
     let inputs = Inputs::load(&config).unwrap();

@@ -229,6 +229,16 @@ mod tests {
         assert!(refusal(&sizes(), &narrow).contains("would need a dispatch of"));
     }
 
+    #[test]
+    fn memory_grows_with_what_buffers_hold_and_frames_in_flight() {
+        let sizes = sizes();
+        let host = sizes.bytes(1) - sizes.bytes(0);
+        assert_eq!(sizes.bytes(2), sizes.bytes(0) + 2 * host);
+        assert!(host >= 65 * 4, "a slice plane is four bytes");
+        let more = Capacities { light_indices: sizes.capacities.light_indices + 100, ..sizes.capacities };
+        assert_eq!(ClusteringSizes { capacities: more, ..sizes }.bytes(2), sizes.bytes(2) + 400);
+    }
+
     fn few_indices() -> Capacities {
         Capacities { visible_clusters: 2, light_indices: 1000 }
     }

@@ -138,7 +138,7 @@ impl Engine {
     pub fn bytes(run: &Config, largest: LargestGrid, mode: &Mode, views: usize) -> u64 {
         let chosen = Chosen::of(run, mode);
         let clusterings = chosen.method.kind().sharing.clusterings(views) as u64;
-        let slots = SLOTS as u64;
+        let slots = FRAME_SLOTS as u64;
         let lights = (slots + 1) * u64::from(mode.lights) * size_of::<LightData>() as u64;
         clusterings * chosen.sizes(run, largest, mode).bytes(slots) + lights
     }

@@ -68,3 +68,27 @@ impl<'a> Tracer<'a> {
             .collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::{Duration, Instant};
+
+    #[test]
+    fn of_a_run_that_is_made_again_the_second_time_is_kept() {
+        let span = |milliseconds| ScopeSpan {
+            cpu_start: Instant::now(),
+            cpu_time: Duration::from_millis(milliseconds),
+            gpu_ticks: None,
+        };
+        let mut tracer = Tracer::new(&ExrFrames::All, [7, 9].into_iter(), 2, 2);
+        for (run, frame) in [(0, 7), (0, 9), (1, 7), (1, 9)] {
+            tracer.keep(run, frame, [span(1), span(2)].into_iter());
+        }
+        tracer.forget(0);
+        tracer.keep(0, 7, [span(3), span(4)].into_iter());
+        assert_eq!(tracer.frames, [(1, 7), (1, 9), (0, 7)]);
+        let times: Vec<u128> = tracer.spans.iter().map(|span| span.cpu_time.as_millis()).collect();
+        assert_eq!(times, [1, 2, 1, 2, 3, 4]);
+    }
+}

@@ -58,36 +58,60 @@ pub fn time(inputs: &Inputs, session: &mut Session, seats: Vec<Seat>) -> Result<
         let deliver = |(number, seat): (usize, Seat)| seat.deliver_counts().map_err(Failed::at(number));
         return seats.into_iter().enumerate().try_for_each(deliver);
     }
-    let group: Vec<String> = seats.iter().map(|seat| seat.run.name.clone()).collect();
-    let bases = bases(&seats);
-    let mut engines: Vec<Timed> = vec![];
-    for (number, seat) in seats.into_iter().enumerate() {
-        engines.push(Timed::new(inputs, session, seat).map_err(Failed::at(number))?);
-    }
-    for turn in 0.. {
-        let last = stopping.is_asked_for(turn + 1);
-        for (number, timed) in engines.iter_mut().enumerate() {
-            let done = timed.turn(session, turn).and_then(|()| match last {
-                // It need not wait for the others.
-                true => timed.deliver(session, &group, None),
-                false => Ok(()),
-            });
-            done.map_err(Failed::at(number))?;
-        }
+    let mut group = Group::new(inputs, session, seats)?;
+    for turns in 1.. {
+        let last = stopping.is_asked_for(turns);
+        group.turn(session, turns - 1, last)?;
         if last {
             break;
         }
-        let series: Vec<Series> =
-            engines.iter().zip(&bases).map(|(timed, &base)| timed.series(base)).collect();
-        let reached = stopping.precisions(&series);
-        if stopping.is_enough(turn + 1, &reached) {
-            for ((number, timed), reached) in engines.iter_mut().enumerate().zip(reached) {
-                timed.deliver(session, &group, Some(reached)).map_err(Failed::at(number))?;
-            }
-            break;
+        let reached = stopping.precisions(&group.series());
+        if stopping.is_enough(turns, &reached) {
+            return group.deliver(session, reached);
         }
     }
     Ok(())
+}
+
+/// Engines side by side.
+struct Group<'s> {
+    names: Vec<String>,
+    /// For each the one it is compared with.
+    bases: Vec<usize>,
+    timed: Vec<Timed<'s>>,
+}
+
+impl<'s> Group<'s> {
+    fn new(inputs: &Inputs, session: &mut Session, seats: Vec<Seat<'s>>) -> Result<Self, Failed> {
+        let names = seats.iter().map(|seat| seat.run.name.clone()).collect();
+        let bases = bases(&seats);
+        let timed = (0..)
+            .zip(seats)
+            .map(|(number, seat)| Timed::new(inputs, session, seat).map_err(Failed::at(number)));
+        Ok(Self { names, bases, timed: timed.collect::<Result<_, _>>()? })
+    }
+
+    /// Every engine once over its frames. After the last turn that was asked for, none needs to wait for the others.
+    fn turn(&mut self, session: &mut Session, turn: u32, last: bool) -> Result<(), Failed> {
+        for (number, timed) in self.timed.iter_mut().enumerate() {
+            timed.turn(session, turn).map_err(Failed::at(number))?;
+            if last {
+                timed.deliver(session, &self.names, None).map_err(Failed::at(number))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn series(&self) -> Vec<Series> {
+        self.timed.iter().zip(&self.bases).map(|(timed, &base)| timed.series(base)).collect()
+    }
+
+    fn deliver(&mut self, session: &Session, reached: Vec<Precision>) -> Result<(), Failed> {
+        for ((number, timed), reached) in self.timed.iter_mut().enumerate().zip(reached) {
+            timed.deliver(session, &self.names, Some(reached)).map_err(Failed::at(number))?;
+        }
+        Ok(())
+    }
 }
 
 /// For each run the first under the same lights.

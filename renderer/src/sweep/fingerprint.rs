@@ -36,11 +36,9 @@ impl Fingerprint {
     /// # Errors
     /// The configuration is not JSON.
     pub fn of(&self, config: &Config) -> Result<String> {
-        let fixed = config.runs != Runs::Auto;
+        let matters = |name: &str| config.runs == Runs::Auto || !OF_AUTO.contains(&name);
         let mut config = config.settings(|bearing| bearing != Bearing::Outside)?;
-        if fixed && let Some(settings) = config.as_object_mut() {
-            settings.retain(|name, _| !OF_AUTO.contains(&name.as_str()));
-        }
+        config.retain(|name, _| matters(name));
         let all = json!({ "shared": self.shared, "config": config });
         Ok(sha256(all.to_string().as_bytes()))
     }
