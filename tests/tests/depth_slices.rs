@@ -77,7 +77,7 @@ impl Eye {
             methods: methods(&[self.method]),
             resolution: RESOLUTION,
             frames: FrameRange { first: 0, end: Some(1), step: 1 },
-            runs: 0,
+            runs: 0.into(),
             exr: ExrFrames::All,
             ..Config::default()
         }

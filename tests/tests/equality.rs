@@ -17,7 +17,7 @@ fn config(recording: &str, msaa: u32, marking: Marking) -> Config {
         marking,
         clusters: vec![Clusters::Visible, Clusters::All],
         frames: FrameRange { first: 100, end: Some(581), step: 240 },
-        runs: 0,
+        runs: 0.into(),
         exr: ExrFrames::All,
         ..Config::default()
     }

@@ -72,7 +72,7 @@ fn runs(away: [f64; 3], lights: Lights, stereo: bool) -> Vec<Run> {
         methods: methods(&METHODS),
         resolution: [64, 40],
         frames: FrameRange { first: 0, end: Some(1), step: 1 },
-        runs: 0,
+        runs: 0.into(),
         exr: ExrFrames::All,
         ..Config::default()
     })

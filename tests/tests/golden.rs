@@ -15,7 +15,7 @@ fn golden(names: &[&str], scene: &str, recording: &str, file: &str) {
         methods: methods(names),
         resolution: [96, 64],
         frames: FrameRange { first: 300, end: Some(581), step: 280 },
-        runs: 0,
+        runs: 0.into(),
         exr: ExrFrames::List(vec![300]),
         ..Config::default()
     });

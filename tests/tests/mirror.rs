@@ -27,7 +27,7 @@ fn config(names: &[&str]) -> Config {
         methods: methods(names),
         resolution: [56, 56],
         frames: FrameRange { first: FRAME, end: Some(581), step: 220 },
-        runs: 0,
+        runs: 0.into(),
         exr: ExrFrames::All,
         ..Config::default()
     }

@@ -13,7 +13,7 @@ fn config(msaa: u32) -> Config {
         resolution: [48, 32],
         msaa,
         frames: FrameRange { first: 300, end: Some(581), step: 280 },
-        runs: 1,
+        runs: 1.into(),
         exr: ExrFrames::All,
         ..Config::default()
     }

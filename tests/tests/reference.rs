@@ -43,7 +43,7 @@ fn frame_300(recording: &str, method: &str, resolution: [u32; 2]) -> Run {
         lights_file: Some(unpack("lights_1000_frame300.csv")),
         resolution,
         frames: FrameRange { first: 300, end: Some(301), step: 1 },
-        runs: 0,
+        runs: 0.into(),
         ..Config::default()
     };
     run(config).remove(0)

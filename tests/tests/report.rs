@@ -34,6 +34,7 @@ fn write_run(out: &Path, scene: [&str; 2], views: u32, method: &str, lights: u32
         machine: Default::default(),
         conditions: Default::default(),
         doubts: vec![],
+        timing: None,
         capacities: Default::default(),
         growth: vec![],
         started: "2026-01-01T00:00:00Z".into(),
@@ -48,6 +49,7 @@ fn write_run(out: &Path, scene: [&str; 2], views: u32, method: &str, lights: u32
         writer.write_images(frame, &[pixels()], ExrLayout::Multipart).unwrap();
         writer.write_birdseye(frame, &image::RgbImage::new(32, 20)).unwrap();
     }
+    writer.write_counted(&counts).unwrap();
     writer.finish(&manifest, &counts, &times).unwrap();
 }
 

@@ -22,7 +22,7 @@ fn runs(recording: &str, assign: Vec<Assign>, lights: Vec<Lighting>) -> Vec<Run>
         test: TESTS.map(|name| name.parse().unwrap()).to_vec(),
         resolution: [48, 32],
         frames: FrameRange { first: 300, end: Some(301), step: 1 },
-        runs: 0,
+        runs: 0.into(),
         ..Config::default()
     })
 }

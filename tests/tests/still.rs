@@ -18,7 +18,7 @@ fn config(recording: &str, method: &str) -> Config {
         lights: vec![Lighting::with_count(100)],
         resolution: [96, 64],
         frames: FrameRange { first: FRAME, end: Some(FRAME + 1), step: 1 },
-        runs: 0,
+        runs: 0.into(),
         validate: true,
         ..Config::default()
     }

@@ -58,7 +58,7 @@ fn draw(node: Value, material: Value, alpha: u8, samples: (u32, Marking)) -> Vec
         msaa: samples.0,
         marking: samples.1,
         frames: FrameRange { first: 0, end: Some(1), step: 1 },
-        runs: 0,
+        runs: 0.into(),
         exr: ExrFrames::All,
         ..Config::default()
     })

@@ -66,7 +66,7 @@ fn square(directory: &Path, distance: f32, [near, far]: [f64; 2], light: &PointL
         lights_file: Some(file("lights.csv").into()),
         resolution: [32, 18],
         frames: FrameRange { first: 0, end: Some(1), step: 1 },
-        runs: 0,
+        runs: 0.into(),
         exr: ExrFrames::All,
         ..Config::default()
     }
@@ -110,7 +110,7 @@ fn compare_marks(recording: &str, method: &str, marking: Marking) {
         resolution: [160, 90],
         marking,
         frames: FrameRange { first: 300, end: Some(301), step: 1 },
-        runs: 0,
+        runs: 0.into(),
         exr: ExrFrames::All,
         ..Config::default()
     };
@@ -150,7 +150,7 @@ fn compare_lists(method: &str, clusters: Clusters) {
         resolution: [160, 90],
         lights: vec![Lighting { count: 300, intensity: 20.0, cutoff: 0.5, r0: 0.1 }],
         frames: FrameRange { first: 300, end: Some(301), step: 1 },
-        runs: 0,
+        runs: 0.into(),
         ..Config::default()
     };
     let inputs = Inputs::load(&config).unwrap();

@@ -15,7 +15,7 @@ fn silent(recording: &str, msaa: u32, marking: Marking) {
         clusters: vec![Clusters::Visible, Clusters::All],
         scopes: Scopes::Frame,
         frames: FrameRange { first: 290, end: Some(320), step: 10 },
-        runs: 1,
+        runs: 1.into(),
         exr: ExrFrames::List(vec![300]),
         ..Config::default()
     });

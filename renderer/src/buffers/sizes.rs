@@ -1,6 +1,6 @@
 //! Sizes of a clustering's buffers, and what a device must hold and dispatch for them: pure.
 
-use super::BufferName;
+use super::{BufferInfo, BufferName, Owner};
 use crate::assign::{self, Assigner, Clusters};
 use crate::gpu_interface::{ASSIGN_WORKGROUP, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS};
 use crate::measure::Capacities;
@@ -112,6 +112,15 @@ impl ClusteringSizes {
         self.words().max(self.visible()).max(self.digit_counts()).max(self.culled_light_words())
     }
 
+    /// What the buffers of a clustering take, bytes, where so many frames are in flight.
+    pub fn bytes(&self, slots: u64) -> u64 {
+        let size = |info: &BufferInfo| info.size.map_or(0, |size| size(self));
+        let of =
+            |owner| BufferName::ALL.map(BufferName::info).into_iter().filter(move |info| info.owner == owner);
+        of(Owner::Clustering).map(size).sum::<u64>()
+            + slots * of(Owner::ClusteringFrame).map(size).sum::<u64>()
+    }
+
     /// The most entries that the device's buffers hold.
     pub fn most(&self, limits: &Limits) -> Capacities {
         let words = limits.max_storage_buffer_range / 4;
@@ -218,6 +227,16 @@ mod tests {
         assert!(many_lights.starts_with("buffer lights would be read as 30000 texels"), "{many_lights}");
         let narrow = Limits { max_compute_work_group_count: [31; 3], ..limits() };
         assert!(refusal(&sizes(), &narrow).contains("would need a dispatch of"));
+    }
+
+    #[test]
+    fn memory_grows_with_what_buffers_hold_and_frames_in_flight() {
+        let sizes = sizes();
+        let host = sizes.bytes(1) - sizes.bytes(0);
+        assert_eq!(sizes.bytes(2), sizes.bytes(0) + 2 * host);
+        assert!(host >= 65 * 4, "a slice plane is four bytes");
+        let more = Capacities { light_indices: sizes.capacities.light_indices + 100, ..sizes.capacities };
+        assert_eq!(ClusteringSizes { capacities: more, ..sizes }.bytes(2), sizes.bytes(2) + 400);
     }
 
     fn few_indices() -> Capacities {

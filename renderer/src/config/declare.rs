@@ -201,7 +201,7 @@ mod tests {
             marking: Marking::Geometry,
             displaced_volume: DisplacedVolume::Own,
             resolution: [8, 4],
-            runs: 9,
+            runs: 9.into(),
             ..Config::default()
         };
         let expected = ["attenuation phy_smo_1", "marking from geometry", "displaced volume own"];

@@ -10,6 +10,7 @@ mod exclude;
 mod file;
 mod frames;
 mod layer;
+mod runs;
 mod scenes;
 mod schema;
 mod settings;
@@ -22,6 +23,7 @@ pub use axes::{AXES, Axis, Labels, Role, run_name};
 pub use cases::Test;
 pub use declare::{Bearing, Setting};
 pub use exclude::Exclude;
+pub use runs::Runs;
 pub use schema::json_schema;
 pub use settings::{Config, Layer};
 pub use values::resolution as parse_resolution;
@@ -149,7 +151,8 @@ impl Config {
         if self.lights_from().is_empty() {
             return Err(Error::input("lights: no lighting: give at least one, such as 1000"));
         }
-        if self.runs == 0 && !self.trace.is_empty() {
+        self.check_runs().map_err(Error::Input)?;
+        if self.runs.is_none() && !self.trace.is_empty() {
             return Err(Error::input("trace: there is no temporal run to trace: set runs to 1 or more"));
         }
         Ok(())

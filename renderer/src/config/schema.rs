@@ -56,6 +56,12 @@ pub(super) fn msaa(_: &mut SchemaGenerator) -> Schema {
     json_schema!({ "enum": [1, 4, null] })
 }
 
+pub(super) fn runs(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({
+        "anyOf": [{ "type": "integer", "minimum": 0, "maximum": u32::MAX }, { "enum": ["auto", null] }]
+    })
+}
+
 pub(super) fn frames(_: &mut SchemaGenerator) -> Schema {
     json_schema!({
         "type": ["string", "null"],

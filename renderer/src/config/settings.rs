@@ -3,12 +3,14 @@
 use super::declare::{Bearing, Setting, set, settings};
 use super::values::{self, de, ser};
 use super::{
-    Assign, Exclude, ExrFrames, ExrLayout, FrameRange, SceneEntry, Scopes, Test, exclude, scenes, schema,
+    Assign, Exclude, ExrFrames, ExrLayout, FrameRange, Runs, SceneEntry, Scopes, Test, exclude, scenes,
+    schema,
 };
 use crate::assign::{Clusters, Marking};
 use crate::culling::Culling;
 use crate::geometry::DisplacedVolume;
 use crate::lights::{Attenuation, Lighting};
+use crate::measure::Order;
 use crate::methods::{KINDS, Method, Sharing, Space};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -104,9 +106,27 @@ settings! {
         schemars(schema_with = "schema::frames")
         check(FrameRange::check)
     }
-    /// Temporal runs, in which stages are timed; 0 leaves the counting run alone.
-    runs: u32 = 2, Measures {
+    /// Temporal runs, in which stages are timed: a number, of which 0 leaves the counting run alone, or `auto`: on and on, until
+    /// times are as precise as --precision asks for.
+    runs: Runs = Runs::Fixed(2), Measures {
+        arg(long, value_name = "N|auto")
+        serde(default)
+        schemars(schema_with = "schema::runs")
+    }
+    /// Order of the temporal runs of what shares scene, recording and resolution.
+    order: Order = Order::Interleaved, Measures {
+        arg(long, value_enum)
+    }
+    /// With `--runs auto`: how far, in percent and to either side, the 95 % interval may reach of the mean frame time of each
+    /// run, and of its ratio to the first under the same lights.
+    precision: f64 = 2.0, Measures {
+        arg(long, value_name = "PERCENT")
+        schemars(extend("exclusiveMinimum" = 0))
+    }
+    /// With `--runs auto`: the most temporal runs.
+    max_runs: u32 = 20, Measures {
         arg(long, value_name = "N")
+        schemars(range(min = 2))
     }
     /// Frames whose EXR and PNG images are written: numbers with commas between, `all` or `none`.
     exr: ExrFrames = ExrFrames::List(Vec::new()), Measures {

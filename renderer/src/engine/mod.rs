@@ -135,6 +135,15 @@ impl Engine {
         session.store.pipelines(&chosen.variant(run, mode)).map(drop)
     }
 
+    /// What the buffers of an engine take, bytes, for frames of so many views.
+    pub fn bytes(run: &Config, largest: LargestGrid, mode: &Mode, views: usize) -> u64 {
+        let chosen = Chosen::of(run, mode);
+        let clusterings = chosen.method.kind().sharing.clusterings(views) as u64;
+        let slots = FRAME_SLOTS as u64;
+        let lights = (slots + 1) * u64::from(mode.lights) * size_of::<LightData>() as u64;
+        clusterings * chosen.sizes(run, largest, mode).bytes(slots) + lights
+    }
+
     /// How it finds lights.
     pub fn method(&self) -> Method {
         self.method

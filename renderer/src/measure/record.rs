@@ -106,6 +106,12 @@ pub struct ViewPixels {
 }
 
 impl FrameCounts {
+    /// Lets go what is known of each cluster and each bin; the sums stay.
+    pub fn keep_sums(&mut self) {
+        self.clusterings.iter_mut().for_each(|clustering| clustering.clusters = vec![]);
+        self.lights_per_fragment = vec![];
+    }
+
     /// Cells of all grids, visible or not.
     pub fn clusters(&self) -> u64 {
         self.clusterings.iter().map(|c| c.dimensions.iter().map(|&d| u64::from(d)).product::<u64>()).sum()

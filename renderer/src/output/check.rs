@@ -34,7 +34,7 @@ pub fn check_run(directory: &Path) -> Result<()> {
     let frames = check_frames(directory, manifest.frame_count)?;
     check_clusterings(directory, &frames)?;
     check_histograms(directory, &frames)?;
-    check_timings(directory, &frames, manifest.config.runs)
+    check_timings(directory, &frames, manifest.temporal_runs())
 }
 
 /// An error about a table as a whole.

@@ -4,7 +4,7 @@ use super::strict::{refuse, shown};
 use crate::config::Config;
 use crate::lights::Lighting;
 use crate::machine::{Conditions, Machine};
-use crate::measure::{Capacities, GrowthEvent};
+use crate::measure::{Capacities, GrowthEvent, Timing};
 use crate::{Error, Result};
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -63,6 +63,9 @@ pub struct Manifest {
     /// Why times are doubtful, a sentence each; see [`crate::machine`].
     #[serde(default)]
     pub doubts: Vec<String>,
+    /// How its temporal runs were made; `None` where there are none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub timing: Option<Timing>,
     /// Buffer capacities at the end of the run.
     #[serde(default)]
     pub capacities: Capacities,
@@ -99,6 +102,11 @@ pub struct DeviceInfo {
 }
 
 impl Manifest {
+    /// How many temporal runs there are; earlier versions made as many as they were told.
+    pub fn temporal_runs(&self) -> u32 {
+        self.timing.as_ref().map(|timing| timing.runs).or(self.config.runs.fixed()).unwrap_or(0)
+    }
+
     /// Reads the manifest of the run in `directory`, by this version of the program or an earlier one.
     ///
     /// # Errors

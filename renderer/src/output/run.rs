@@ -113,7 +113,17 @@ impl RunWriter {
         self.write("trace.json", |file| trace::write_trace(file, frames))
     }
 
-    /// Writes the tables and the manifest, and puts the directory in its place, over an older run's.
+    /// Writes the tables that hold counts alone. What they need of `counts` and [`Self::finish`] does not, the records of
+    /// clusters and the bins of fragments, may be let go then.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn write_counted(&self, counts: &[FrameCounts]) -> Result<()> {
+        self.write_table(tables::clusterings(counts))?;
+        self.write_table(tables::histograms(counts))
+    }
+
+    /// After [`Self::write_counted`], writes the tables with times and the manifest, and puts the directory in its place, over an older run's.
     ///
     /// # Errors
     /// A file cannot be written; nothing is left of the new directory then.
@@ -121,8 +131,6 @@ impl RunWriter {
         let minima = StageMinima::from_times(times);
         self.write_table(tables::frames(counts, &minima))?;
         self.write_table(tables::timings(times))?;
-        self.write_table(tables::clusterings(counts))?;
-        self.write_table(tables::histograms(counts))?;
         let manifest = serde_json::to_string_pretty(manifest)
             .map_err(|error| Error::Internal(format!("the manifest is not JSON: {error}")))?;
         self.write(MANIFEST, |file| writeln!(file, "{manifest}"))?;

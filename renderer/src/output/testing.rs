@@ -41,6 +41,7 @@ pub(super) fn manifest() -> Manifest {
             ..Conditions::default()
         },
         doubts: vec!["others were at work".into()],
+        timing: None,
         capacities: Capacities { visible_clusters: 1, light_indices: 2 },
         growth: vec![GrowthEvent {
             frame: 40,

@@ -296,6 +296,7 @@ fn contents(directory: &Path) -> BTreeMap<String, Vec<u8>> {
 fn write_run(out: &Path) {
     let writer = RunWriter::create(out, "encl-ortho-4").unwrap();
     writer.write_images(40, &[view("left", 4, 3), view("right", 4, 3)], ExrLayout::Multipart).unwrap();
+    writer.write_counted(&[counts(40)]).unwrap();
     writer.finish(&manifest(), &[counts(40)], &[times(0, 40, 8.0)]).unwrap();
 }
 

@@ -1,9 +1,11 @@
-//! A device with one scene on it, on which runs are played one after the other.
+//! A device with one scene on it, on which runs are played.
 
-use super::{RunSink, Watch, replay_run};
+use super::count::{self, Counted};
+use super::turns::{self, Failed, Seat};
+use super::{RunSink, Watch};
 use crate::Result;
 use crate::assign::Assigner;
-use crate::config::Config;
+use crate::config::{Config, Runs};
 use crate::engine::{Engine, LargestGrid, Mode, Session, plan_frames};
 use crate::inputs::Inputs;
 use crate::output::PlannedRun;
@@ -28,9 +30,12 @@ impl<'a> Player<'a> {
     /// Opens the device and brings the scene there.
     ///
     /// # Errors
-    /// The device is missing, lacks something, or cannot hold the scene.
+    /// The device is missing, lacks something (timestamps, where times decide how many runs are made), or cannot hold the scene.
     pub fn new(config: &'a Config, inputs: &'a Inputs) -> Result<Self> {
         let session = Session::new(config, &inputs.scene, inputs.recording.view_set())?;
+        if config.runs == Runs::Auto {
+            session.context.require_timestamps()?;
+        }
         Ok(Self { inputs, session })
     }
 
@@ -55,10 +60,38 @@ impl<'a> Player<'a> {
     /// # Errors
     /// As [`super::replay`].
     pub fn play(&mut self, run: &PlannedRun, watch: &Watch, sink: &mut dyn RunSink) -> Result<()> {
+        let counted = &mut Some(self.count(run, watch, sink)?);
+        self.time(vec![Seat { run, counted, watch, sink }]).map_err(|failed| failed.error)
+    }
+
+    /// Begins a run in the sink and counts it; it is to be timed then. After an error the device may be lost.
+    ///
+    /// # Errors
+    /// As [`super::replay`].
+    pub fn count(&mut self, run: &PlannedRun, watch: &Watch, sink: &mut dyn RunSink) -> Result<Counted> {
         sink.begin(run)?;
-        let result = replay_run(self.inputs, &mut self.session, run, (watch, sink))?;
+        let counted = count::count(self.inputs, &mut self.session, run, (watch, sink))?;
         self.session.context.check_validation()?;
-        sink.finish(run, result)
+        Ok(counted)
+    }
+
+    /// Times counted runs in turn, each into its sink. After an error the device may be lost.
+    ///
+    /// # Errors
+    /// As [`super::replay`], with the run it happened to. Of the others those that were not finished in their sinks are not
+    /// timed, and can be.
+    pub fn time(&mut self, group: Vec<Seat>) -> Result<(), Failed> {
+        turns::time(self.inputs, &mut self.session, group)
+    }
+
+    /// What timing a counted run takes of the device's memory, bytes.
+    pub fn bytes(&self, run: &PlannedRun, counted: &Counted) -> u64 {
+        Engine::bytes(&run.config, counted.largest(), &counted.mode(false), self.session.targets.len())
+    }
+
+    /// The device's own memory, bytes.
+    pub fn device_bytes(&self) -> u64 {
+        self.session.context.limits.device_local_bytes
     }
 
     /// Lets the device go; what it says at its end counts too.

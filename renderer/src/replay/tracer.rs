@@ -30,9 +30,17 @@ impl<'a> Tracer<'a> {
         }
     }
 
+    /// Lets go what was kept of a run, which is made again.
+    pub fn forget(&mut self, run: u32) {
+        let stages = self.spans.len() / self.frames.len().max(1);
+        let mut owners = self.frames.iter().flat_map(|(owner, _)| std::iter::repeat_n(*owner, stages));
+        self.spans.retain(|_| owners.next() != Some(run));
+        self.frames.retain(|(owner, _)| *owner != run);
+    }
+
     /// The whole trace on two clocks. That of the host starts with the first stage. That of the device cannot be
     /// compared with it; its first stage is put where the first frame's recording ended, before which it did not run.
-    pub fn finish(self, tree: &ScopeTree, limits: &Limits) -> Vec<FrameTrace> {
+    pub fn finish(&self, tree: &ScopeTree, limits: &Limits) -> Vec<FrameTrace> {
         let Some(first) = self.spans.first() else { return vec![] };
         let cpu_origin = first.cpu_start;
         let gpu_origin = first.gpu_ticks.map_or(0, |ticks| ticks[0]);
@@ -58,5 +66,29 @@ impl<'a> Tracer<'a> {
                 stages: tree.paths().zip(spans).map(span).collect(),
             })
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::{Duration, Instant};
+
+    #[test]
+    fn of_a_run_that_is_made_again_the_second_time_is_kept() {
+        let span = |milliseconds| ScopeSpan {
+            cpu_start: Instant::now(),
+            cpu_time: Duration::from_millis(milliseconds),
+            gpu_ticks: None,
+        };
+        let mut tracer = Tracer::new(&ExrFrames::All, [7, 9].into_iter(), 2, 2);
+        for (run, frame) in [(0, 7), (0, 9), (1, 7), (1, 9)] {
+            tracer.keep(run, frame, [span(1), span(2)].into_iter());
+        }
+        tracer.forget(0);
+        tracer.keep(0, 7, [span(3), span(4)].into_iter());
+        assert_eq!(tracer.frames, [(1, 7), (1, 9), (0, 7)]);
+        let times: Vec<u128> = tracer.spans.iter().map(|span| span.cpu_time.as_millis()).collect();
+        assert_eq!(times, [1, 2, 1, 2, 3, 4]);
     }
 }

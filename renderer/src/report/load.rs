@@ -133,7 +133,7 @@ fn read_run(Found { name, directory, manifest: file }: &Found) -> Result<Run> {
         doubts: file.doubts.clone(),
         started: file.started.clone(),
         duration_s: file.duration_s,
-        temporal_runs: file.config.runs,
+        temporal_runs: file.temporal_runs(),
         grid,
         frames,
         times,

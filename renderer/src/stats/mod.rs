@@ -53,6 +53,6 @@ mod coverage;
 
 pub use measured::{Basis, Measured};
 pub use noise::{Halves, Interval, LEVEL, Noise};
-pub use sample::{Statistics, mean, slope};
+pub use sample::{Statistics, mean, percentile, slope};
 pub use samples::Samples;
 pub use splits::{Split, splits};

@@ -1,5 +1,6 @@
 //! Goes through the chosen runs: skips what is done, records what fails, keeps what is complete.
 
+use super::group::{self, Member, Tally};
 use super::writer::{Files, device};
 use super::{Failure, Fingerprint, Part, failure};
 use crate::config::Config;
@@ -9,10 +10,9 @@ use crate::output::{
     DeviceInfo, PlannedRun, check_run, is_complete, prepare_output, remove_abandoned, saved_fingerprint,
 };
 use crate::recording::{self, Recording};
-use crate::replay::{Player, Watch, device_info, frame_total, shape_note};
+use crate::replay::{Failed, Player, Watch, device_info, frame_total, shape_note};
 use crate::scene::{Scene, procedural};
 use crate::{Error, Result};
-use std::cell::Cell;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
@@ -72,6 +72,44 @@ impl Open<'_> {
         };
         Ok(self.inputs.rain_note().into_iter().chain(shape))
     }
+}
+
+/// A part under way.
+struct Stage<'o> {
+    open: &'o Open<'o>,
+    /// `None` after a failure, which may have lost the device.
+    player: Option<Player<'o>>,
+    /// Runs that are counted, to be timed in turn.
+    group: Vec<Member<'o>>,
+}
+
+impl<'o> Stage<'o> {
+    /// The player at hand, or a new one.
+    fn player(&mut self) -> Result<&mut Player<'o>> {
+        let player = match self.player.take() {
+            Some(player) => player,
+            None => Player::new(&self.open.part.config, self.open.inputs)?,
+        };
+        Ok(self.player.insert(player))
+    }
+
+    /// Whether the engines of the group and that of one more run are more than the device should hold.
+    fn is_overfilled_by(&self, more: &Member) -> bool {
+        self.player.as_ref().is_some_and(|player| group::overfills(player, &self.group, more))
+    }
+
+    fn time(&mut self, interrupt: &AtomicBool) -> Result<(), Failed> {
+        match &mut self.player {
+            Some(player) => group::time(player, &mut self.group, interrupt),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Whether an error that met a run ends the sweep: what cannot be written fails for every run, and nothing is gained by
+/// rendering on.
+fn ends_all(error: &Error, files: &Files) -> bool {
+    files.broken || matches!(error, Error::Interrupted(_))
 }
 
 /// Runs to make, each with its fingerprint.
@@ -163,21 +201,29 @@ impl<'a> Sweep<'a> {
         for note in open.notes()? {
             self.reporter.note(&note);
         }
-        let (mut player, pending) = self.checked(open, pending)?;
-        for (run, fingerprint) in pending {
-            let mut current =
-                match player.take().map_or_else(|| Player::new(&open.part.config, open.inputs), Ok) {
-                    Ok(player) => player,
-                    Err(error) => {
-                        self.fail(open.part, run, open.frames, &error)?;
-                        continue;
-                    }
-                };
-            if self.play(open, &mut current, run, fingerprint)? {
-                player = Some(current);
+        let (player, pending) = self.checked(open, pending)?;
+        self.make(Stage { open, player, group: vec![] }, pending)
+    }
+
+    /// Counts the runs one by one, and times them in groups.
+    fn make<'o>(&mut self, mut stage: Stage<'o>, pending: Pending<'o>) -> Result<()>
+    where
+        'a: 'o,
+    {
+        let runs: Vec<&PlannedRun> = pending.iter().map(|(run, _)| *run).collect();
+        let most = group::most(&stage.open.part.config);
+        for (place, (run, fingerprint)) in pending.into_iter().enumerate() {
+            let size = stage.group.len();
+            if stage.group.last().is_some_and(|last| group::ends_with(last.run, size, &runs[place..])) {
+                self.time(&mut stage)?;
+            }
+            self.count(&mut stage, run, fingerprint)?;
+            if stage.group.len() >= most {
+                self.time(&mut stage)?;
             }
         }
-        player.map_or(Ok(()), Player::finish)
+        self.time(&mut stage)?;
+        stage.player.map_or(Ok(()), Player::finish)
     }
 
     /// Whether the run in `directory` is the one that is wanted, and whole; says why it is made again where not.
@@ -217,38 +263,71 @@ impl<'a> Sweep<'a> {
         Ok((Some(player), playable))
     }
 
-    /// Makes one run; says whether the player is still good.
-    fn play(
-        &mut self,
-        open: &Open,
-        player: &mut Player,
-        run: &PlannedRun,
-        fingerprint: String,
-    ) -> Result<bool> {
-        let (part, inputs, reporter) = (open.part, open.inputs, self.reporter);
-        let submitted = Cell::new(0);
-        let progress = || {
-            submitted.set(submitted.get() + 1);
-            reporter.advance();
-        };
-        let watch = Watch { interrupt: self.interrupt, progress: &progress };
-        let mut files = Files { part, inputs, reporter, fingerprint, writer: None, broken: false };
-        let played = player.play(run, &watch, &mut files);
-        let broken = files.broken;
-        drop(files);
-        match played {
-            Ok(()) => {
-                failure::forget(part, run)?;
-                self.outcome.made += 1;
-                Ok(true)
+    /// Counts a run and puts it into the group, before which that is timed where the run does not fit in.
+    fn count<'o>(&mut self, stage: &mut Stage<'o>, run: &'o PlannedRun, fingerprint: String) -> Result<()>
+    where
+        'a: 'o,
+    {
+        let Open { part, inputs, frames } = *stage.open;
+        let (reporter, tally) = (self.reporter, Tally::new(frames));
+        let watch = Watch { interrupt: self.interrupt, progress: &|| tally.step(|| reporter.advance()) };
+        let mut files = Files::new((part, inputs), fingerprint, reporter);
+        match stage.player().and_then(|player| player.count(run, &watch, &mut files)) {
+            Ok(counted) => {
+                tally.counted();
+                let member = Member { run, files, tally, counted: Some(counted) };
+                if stage.is_overfilled_by(&member) {
+                    self.time(stage)?;
+                }
+                stage.group.push(member);
+                Ok(())
             }
-            // What cannot be written fails for every run: nothing is gained by rendering on.
-            Err(error) if broken || matches!(error, Error::Interrupted(_)) => Err(error),
+            Err(error) if ends_all(&error, &files) => Err(error),
             Err(error) => {
-                self.fail(part, run, open.frames.saturating_sub(submitted.get()), &error)?;
-                Ok(false)
+                stage.player = None;
+                self.fail(part, run, tally.left(), &error)
             }
         }
+    }
+
+    /// Times the group. Where one of its runs fails, the others that are not complete are timed anew, without it.
+    fn time(&mut self, stage: &mut Stage) -> Result<()> {
+        let part = stage.open.part;
+        while !stage.group.is_empty() {
+            let timed = match stage.player() {
+                Ok(_) => stage.time(self.interrupt),
+                Err(error) => Err(Failed { seat: 0, error }),
+            };
+            let at_fault = timed.as_ref().err().map(|failed| stage.group.remove(failed.seat));
+            self.keep_finished(stage)?;
+            let (Err(Failed { error, .. }), Some(member)) = (timed, at_fault) else { continue };
+            if ends_all(&error, &member.files) {
+                return Err(error);
+            }
+            // The device may be lost.
+            stage.player = None;
+            self.fail(part, member.run, member.tally.left(), &error)?;
+            stage.group.iter().for_each(|member| member.tally.again());
+        }
+        Ok(())
+    }
+
+    /// Lets go of the runs of the group that are written.
+    fn keep_finished(&mut self, stage: &mut Stage) -> Result<()> {
+        let part = stage.open.part;
+        let (finished, left): (Vec<_>, Vec<_>) =
+            std::mem::take(&mut stage.group).into_iter().partition(|member| member.files.finished);
+        stage.group = left;
+        for member in &finished {
+            failure::forget(part, member.run)?;
+            self.outcome.made += 1;
+            self.reporter.skip(member.tally.left());
+        }
+        let timed = finished.iter().filter_map(|member| Some((member.run, member.files.timing.as_ref()?)));
+        for note in group::notes(part, &timed.collect::<Vec<_>>()) {
+            self.reporter.note(&note);
+        }
+        Ok(())
     }
 
     /// Records a failure; `frames` will not be rendered.

@@ -1,7 +1,7 @@
 //! What a run's results depend on, in one hash.
 
 use crate::Result;
-use crate::config::{Bearing, Config};
+use crate::config::{Bearing, Config, Runs};
 use crate::inputs::Inputs;
 use crate::output::{DeviceInfo, RUN_FORMAT, git_revision};
 use serde_json::{Value, json};
@@ -11,6 +11,9 @@ use sha2::{Digest, Sha256};
 pub struct Fingerprint {
     shared: Value,
 }
+
+/// Settings that matter only where times decide how many temporal runs are made.
+const OF_AUTO: [&str; 2] = ["precision", "max_runs"];
 
 impl Fingerprint {
     /// Takes the content of scene, recording, static lights and shaders, the program, and the device.
@@ -33,7 +36,9 @@ impl Fingerprint {
     /// # Errors
     /// The configuration is not JSON.
     pub fn of(&self, config: &Config) -> Result<String> {
-        let config = config.settings(|bearing| bearing != Bearing::Outside)?;
+        let matters = |name: &str| config.runs == Runs::Auto || !OF_AUTO.contains(&name);
+        let mut config = config.settings(|bearing| bearing != Bearing::Outside)?;
+        config.retain(|name, _| matters(name));
         let all = json!({ "shared": self.shared, "config": config });
         Ok(sha256(all.to_string().as_bytes()))
     }
@@ -48,6 +53,7 @@ mod tests {
     use super::*;
     use crate::config::{Assign, ExrFrames};
     use crate::lights::Lighting;
+    use crate::measure::Order;
 
     #[test]
     fn it_changes_with_what_matters_alone() {
@@ -64,8 +70,13 @@ mod tests {
             same
         );
         assert_ne!(of("b", &base), same);
+        assert_eq!(of("a", &Config { precision: 1.0, max_runs: 9, ..base.clone() }), same);
+        let auto = Config { runs: Runs::Auto, ..base.clone() };
+        assert_ne!(of("a", &Config { precision: 1.0, ..auto.clone() }), of("a", &auto));
         let changed = [
-            Config { runs: 3, ..base.clone() },
+            auto,
+            Config { order: Order::Sequential, ..base.clone() },
+            Config { runs: 3.into(), ..base.clone() },
             Config { lights: vec![Lighting::with_count(7)], ..base.clone() },
             Config { exr: ExrFrames::All, ..base.clone() },
             Config { resolution: [320, 181], ..base.clone() },

@@ -12,6 +12,7 @@
 mod driver;
 mod failure;
 mod fingerprint;
+mod group;
 mod product;
 mod selection;
 mod table;

@@ -5,7 +5,7 @@ use crate::config::Assign;
 use crate::inputs::Inputs;
 use crate::lights::LightsFrom;
 use crate::machine::{Host, Machine, Roots, doubts};
-use crate::measure::ViewPixels;
+use crate::measure::{FrameCounts, Timing, ViewPixels};
 use crate::output::{
     DeviceInfo, Manifest, PlannedRun, RUN_FORMAT, RunWriter, Source, git_revision, rfc3339_utc,
 };
@@ -21,6 +21,10 @@ pub(super) struct Files<'a> {
     pub fingerprint: String,
     pub writer: Option<RunWriter>,
     pub broken: bool,
+    /// Whether the run is where it belongs.
+    pub finished: bool,
+    /// How it was timed.
+    pub timing: Option<Timing>,
 }
 
 /// The device as manifests have it.
@@ -29,6 +33,18 @@ pub(super) fn device(device: &crate::vk::DeviceInfo) -> DeviceInfo {
         name: device.name.clone(),
         driver: format!("{} {}", device.driver, device.driver_version),
         api: device.api_version.clone(),
+    }
+}
+
+impl<'a> Files<'a> {
+    /// Those of a run that is not begun.
+    pub fn new(
+        (part, inputs): (&'a Part, &'a Inputs),
+        fingerprint: String,
+        reporter: &'a dyn Reporter,
+    ) -> Self {
+        let (broken, finished) = (false, false);
+        Self { part, inputs, reporter, fingerprint, writer: None, broken, finished, timing: None }
     }
 }
 
@@ -66,6 +82,7 @@ impl Files<'_> {
             device: device(&result.device),
             doubts: doubts(&machine, &result.conditions),
             machine,
+            timing: result.timing.clone(),
             conditions: result.conditions.clone(),
             capacities: result.capacities,
             growth: result.growth.clone(),
@@ -95,6 +112,20 @@ impl RunSink for Files<'_> {
         self.noted(written)
     }
 
+    fn counted(&mut self, counts: &mut [FrameCounts]) -> Result<()> {
+        let writer = self.writer.as_ref().ok_or_else(not_begun)?;
+        let written = writer.write_counted(counts);
+        self.noted(written)?;
+        // Many runs may wait for being timed.
+        counts.iter_mut().for_each(FrameCounts::keep_sums);
+        Ok(())
+    }
+
+    fn turn(&mut self, run: &PlannedRun) -> Result<()> {
+        self.reporter.say(&self.part.full_name(run));
+        Ok(())
+    }
+
     fn finish(&mut self, run: &PlannedRun, result: RunResult) -> Result<()> {
         let manifest = self.manifest(run, &result);
         let writer = self.writer.take().ok_or_else(not_begun)?;
@@ -105,7 +136,10 @@ impl RunSink for Files<'_> {
             self.reporter.note(&format!("{}: lights assigned by {}", run.name, result.assigner));
         }
         let finished = writer.finish(&manifest, &result.counts, &result.times);
-        self.noted(finished)
+        self.noted(finished)?;
+        self.timing = result.timing;
+        self.finished = true;
+        Ok(())
     }
 }
 

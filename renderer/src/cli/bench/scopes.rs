@@ -1,7 +1,7 @@
 //! `manylight bench scopes`.
 
 use crate::cli::{Console, Interrupt};
-use crate::config::{Config, Layer};
+use crate::config::{Config, Layer, Runs};
 use crate::inputs::Inputs;
 use crate::replay::bench::{ScopesRow, bench_scopes};
 use crate::replay::{Watch, frame_total};
@@ -28,7 +28,12 @@ pub fn run(args: Args, console: &Console) -> Result<()> {
         return Err(Error::input("scopes: both kinds are measured here: leave --scopes out"));
     }
     let config = Config::resolve(args.config.as_deref(), args.layer)?;
-    if config.runs == 0 {
+    if config.runs == Runs::Auto {
+        return Err(Error::input(
+            "runs: each frame is timed a given number of times here: give --runs a number",
+        ));
+    }
+    if config.runs.is_none() {
         return Err(Error::input("runs: nothing is timed in 0 runs: give --runs 1 or more"));
     }
     if config.scenes.len() > 1 {

@@ -12,7 +12,7 @@ fn bundled_configurations_say_what_they_should() {
         resolution: [640, 720],
         lights: vec![lighting(1000, 100.0), lighting(10_000, 20.0), lighting(100_000, 1.0)],
         frames: FrameRange { first: 0, end: None, step: 1 },
-        runs: 4,
+        runs: 4.into(),
         out: "out/tuned".into(),
         ..Config::default()
     };
@@ -39,7 +39,7 @@ fn bundled_sweeps_are_the_experiments_of_the_thesis() {
                 (width, height),
                 if eye { (height * 8 / 9, height) } else { (height * 16 / 9, height) }
             );
-            assert_eq!(part.config.runs, if file.ends_with("ci.json") { 2 } else { 4 });
+            assert_eq!(part.config.runs, if file.ends_with("ci.json") { 2.into() } else { 4.into() });
         }
         let names = parts.iter().flat_map(|part| part.runs.iter().map(|run| part.full_name(run)));
         names.collect::<Vec<_>>()

@@ -11,7 +11,7 @@ fn layers_replace_what_they_give_and_leave_the_rest() {
     .unwrap();
     let expected = Config {
         scene: "temple".into(),
-        runs: 0,
+        runs: 0.into(),
         methods: vec![Method::AllLights],
         device: Some("llvmpipe".into()),
         exr: ExrFrames::List(vec![300, 580]),
@@ -27,7 +27,7 @@ fn every_spelling_of_the_text_is_the_same_configuration() {
     for bytes in crate::text::tests::spellings("{\n\"runs\": 7,\n\"strict\": true\n}\n") {
         std::fs::write(&path, bytes).unwrap();
         let config = Config::resolve(Some(&path), Layer::default()).unwrap();
-        assert_eq!((config.runs, config.strict), (7, true));
+        assert_eq!((config.runs, config.strict), (7.into(), true));
     }
 }
 

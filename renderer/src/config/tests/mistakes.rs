@@ -85,7 +85,7 @@ fn mistakes_in_files_are_named_with_line_column_and_nearest_name() {
         ),
         (
             "{\"runs\": -1}",
-            "line 1, column 10: runs: invalid value: integer `-1`, expected a whole number from 0 to 4294967295",
+            "line 1, column 10: runs: invalid value: integer `-1`, expected a whole number from 0 to 4294967295 or \"auto\"",
         ),
         ("{\"scene\": \" \"}", "line 1, column 11: scene: empty: it must name something"),
         (

@@ -10,6 +10,7 @@ fn whole() -> TempDir {
     let timed = [times(0, 40, 8.0), times(0, 80, 9.0), times(1, 40, 8.0), times(1, 80, 7.0)];
     let manifest = Manifest { frame_count: Some(2), ..manifest() };
     let writer = RunWriter::create(out.path(), "run").unwrap();
+    writer.write_counted(&[counts(40), counts(80)]).unwrap();
     writer.finish(&manifest, &[counts(40), counts(80)], &timed).unwrap();
     out
 }

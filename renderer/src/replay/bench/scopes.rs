@@ -67,7 +67,7 @@ fn least_times(
     assigner: Assigner,
     watch: &Watch,
 ) -> Result<[f64; 2]> {
-    let turns = cases[0].run.runs;
+    let turns = cases[0].run.most_runs();
     let mut engines = vec![];
     for case in &cases {
         engines.push(case.engine(session, assigner, false)?);
