@@ -55,7 +55,7 @@ fn a_slack_of_nothing_loses_lights_that_touch() {
 
 #[test]
 fn a_list_that_is_cut_is_not_that_of_the_twin() {
-    let fault = ("assign/read_masks.comp", "if (slot < end)", "if (slot + 1u < end)");
+    let fault = ("assign/read_masks.comp", "if (entry < end)", "if (entry + 1u < end)");
     let found = faults(&with_fault(fault, &["scan", "lists"]));
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(found[0].0 == "lists" && found[0].1.starts_with("brute force of "), "{found:?}");
