@@ -148,7 +148,7 @@ fn compare_lists(method: &str, clusters: Clusters) {
         methods: vec![method.parse().unwrap()],
         clusters: vec![clusters],
         resolution: [160, 90],
-        lights: vec![Lighting { count: 300, intensity: 20.0, cutoff: 0.5, r0: 0.1 }],
+        lights: vec![Lighting::with_count(2000)],
         frames: FrameRange { first: 300, end: Some(301), step: 1 },
         runs: 0.into(),
         ..Config::default()
