@@ -2,7 +2,7 @@
 //!
 //! Runs are joined by what they were asked to do, not by where they lie. Counters are compared exactly, frame by
 //! frame. Times are compared as ratios of minima over the temporal runs, with the noise that those runs show
-//! ([`crate::stats`]), and judged together ([`verdict`]).
+//! ([`crate::stats`]), and judged together (`verdict.rs`).
 //!
 //! ```text
 //! A ─┬─ join ──> runs ──> counters (exact), times ──> verdicts ──┬──> table, Markdown, JSON, page

@@ -16,7 +16,7 @@ const SEED: u64 = 0x6d61_6e79;
 pub type Split = [Vec<usize>; 2];
 
 /// Ways of splitting so many runs into two halves of equal size, of which an odd run is left out: all of them, or
-/// [`MOST_SPLITS`] at random. Equal numbers of runs are split alike. None of fewer than two runs.
+/// `MOST_SPLITS` at random. Equal numbers of runs are split alike. None of fewer than two runs.
 pub fn splits(runs: usize) -> Vec<Split> {
     match runs {
         0 | 1 => vec![],
