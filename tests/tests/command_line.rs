@@ -86,6 +86,35 @@ fn where_the_frame_alone_is_timed_no_stage_has_a_time() {
 }
 
 #[test]
+fn where_passes_are_timed_their_times_sum_up_to_their_stage() {
+    let out = tempfile::tempdir().unwrap();
+    succeed(
+        small(out.path())
+            .args(["--scopes", "passes", "--frames", "300", "--assign", "scatter", "--runs", "1"]),
+    );
+    let mut reader = csv::Reader::from_path(out.path().join("encl-ortho-4/timings.csv")).unwrap();
+    let rows = reader.deserialize().map(Result::unwrap).collect::<Vec<BTreeMap<String, String>>>();
+    let ms = |row: &BTreeMap<String, String>| row["gpu_ms"].parse::<f64>().unwrap();
+    let stage = "frame/cluster[0]/count_lights";
+    let whole = ms(rows.iter().find(|row| row["stage"] == stage).unwrap());
+    let passes: Vec<_> = rows.iter().filter(|row| row["stage"].starts_with(&format!("{stage}/"))).collect();
+    let names: Vec<_> = passes.iter().map(|row| &row["stage"][stage.len() + 1..]).collect();
+    let expected = [
+        "clear_lists[0]",
+        "scatter_groups[0]",
+        "single[0]",
+        "scatter_groups[1]",
+        "scatter[0]",
+        "read_masks[0]",
+    ];
+    assert_eq!(names, expected);
+    let sum: f64 = passes.iter().map(|row| ms(row)).sum();
+    // The passes fill their stage; each time is written to a nanosecond.
+    let rounding = 1e-6 * (passes.len() + 1) as f64;
+    assert!(sum <= whole + rounding && passes.iter().all(|row| ms(row) > 0.0), "{sum} of {whole}");
+}
+
+#[test]
 fn a_mirror_beside_eyes_is_replayed_and_no_frustum_encloses_both() {
     let directory = tempfile::tempdir().unwrap();
     let replay = |method| {

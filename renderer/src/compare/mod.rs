@@ -28,6 +28,7 @@ pub use page::write_page;
 pub use verdict::{Tally, Verdict};
 
 use crate::Result;
+use crate::output::FRAME;
 use crate::output::Older;
 use crate::stats::{Interval, Noise};
 use serde::Serialize;
@@ -180,7 +181,10 @@ pub fn compare(base: &Path, others: &[PathBuf], options: &Options) -> Result<Com
     let join = |(place, other): (usize, &PathBuf)| join::join(base, other, pictures(place).as_deref());
     let mut all = others.iter().enumerate().map(join).collect::<Result<Vec<_>>>()?;
     let times = all.iter_mut().flat_map(|comparison| &mut comparison.runs).flat_map(|run| &mut run.times);
-    verdict::judge(&mut times.collect::<Vec<_>>(), threshold_percent / 100.0);
+    let (mut frames, mut stages): (Vec<_>, Vec<_>) = times.partition(|time| time.stage == FRAME);
+    for family in [&mut frames, &mut stages] {
+        verdict::judge(family, threshold_percent / 100.0);
+    }
     let verdicts = Tally::of(all.iter().flat_map(Comparison::times).map(|(_, time)| time));
     if all.is_empty() {
         return Err(crate::Error::input("nothing to compare with: give two result sets or more"));

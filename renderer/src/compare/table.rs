@@ -2,6 +2,7 @@
 
 use super::{Comparison, Comparisons, CounterComparison, ResultSet, RunComparison, TimeComparison};
 use crate::output::{TABLE_LINES, grouped};
+use crate::stats::Interval;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 use std::fmt;
 
@@ -21,8 +22,10 @@ impl fmt::Display for Comparisons {
 impl Comparisons {
     /// The verdicts counted, and what they mean, in one line.
     pub(super) fn about_times(&self) -> String {
+        let more =
+            if self.verdicts.undecided > 0 { " More temporal runs decide more: `--runs auto`." } else { "" };
         format!(
-            "Times: {}. Same is within {} %; intervals are of 95 %, widened for as many as are told.",
+            "Times: {}. Same is within {} %; intervals are of 95 %, widened for as many as are told.{more}",
             self.verdicts, self.threshold_percent
         )
     }
@@ -119,9 +122,16 @@ fn time_row(time: &TimeComparison) -> [String; 7] {
     ]
 }
 
+/// An interval that reaches farther, as a factor, says no more than that.
+const TOLD: f64 = 10.0;
+
 /// From where to where the ratio lies; nothing where that is not known.
 pub(super) fn interval(time: &TimeComparison) -> String {
-    time.interval.map(|interval| format!("{:.3} .. {:.3}", interval.low, interval.high)).unwrap_or_default()
+    match time.interval {
+        Some(Interval { low, high }) if low < 1.0 / TOLD || high > TOLD => "beyond 0.1 .. 10".to_owned(),
+        Some(Interval { low, high }) => format!("{low:.3} .. {high:.3}"),
+        None => String::new(),
+    }
 }
 
 /// Frame numbers, the first few of many.

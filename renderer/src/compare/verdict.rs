@@ -1,7 +1,8 @@
 //! Faster, slower, same or undecided: what noise lets be said of ratios of times.
 //!
 //! A sweep compares hundreds of times, of which one in twenty lies outside its own 95 % interval by chance alone. So that
-//! such do not block a merge, times are judged together: by Benjamini and Hochberg (*Controlling the False Discovery
+//! such do not block a merge, times are judged together, those of whole frames by themselves and those of stages by
+//! themselves, so that the many stages do not blur what is said of frames: by Benjamini and Hochberg (*Controlling the False Discovery
 //! Rate*, 1995), at most 5 % of those called changed are expected to be unchanged, and where nothing changed at all there
 //! is with a chance of 95 % no such. The intervals told are widened to match (Benjamini and Yekutieli 2005), so that
 //! one rule and one interval decide.

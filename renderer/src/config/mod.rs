@@ -101,6 +101,8 @@ pub enum Scopes {
     All,
     /// The frame alone: what measuring itself costs is the difference.
     Frame,
+    /// Every stage, and every compute pass as a stage of its own: where the time of a stage goes.
+    Passes,
 }
 
 /// One scene of the scene axis.

@@ -124,7 +124,7 @@ settings! {
         schemars(extend("exclusiveMinimum" = 0))
     }
     /// With `--runs auto`: the most temporal runs.
-    max_runs: u32 = 20, Measures {
+    max_runs: u32 = 100, Measures {
         arg(long, value_name = "N")
         schemars(range(min = 2))
     }
@@ -226,7 +226,8 @@ settings! {
         arg(long, value_name = "DIR")
         check(values::check_path)
     }
-    /// Which stages are timed: all, or the frame as a whole, which shows what timing itself costs.
+    /// Which stages are timed: all; the frame as a whole, which shows what timing itself costs; or every compute pass too,
+    /// which shows where the time of a stage goes, and takes longer.
     scopes: Scopes = Scopes::All, Measures {
         arg(long, value_enum)
     }

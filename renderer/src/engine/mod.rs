@@ -38,7 +38,7 @@ use crate::layouts::Pipeline;
 use crate::lights::FrameLights;
 use crate::measure::GrowthEvent;
 use crate::methods::Method;
-use crate::pass::{Recorder, ScopeTree};
+use crate::pass::{Recorder, ScopeTree, Timed};
 use crate::passes::{Draws, Frame};
 use crate::pipelines::Pipelines;
 use crate::vk::{Buffer, Context, Memory};
@@ -58,7 +58,7 @@ pub struct Engine {
     clusters: Clusters,
     assigner: Assigner,
     resolution: [u32; 2],
-    timed_scopes: usize,
+    timed: Timed,
     pipelines: Pipelines,
     sizes: ClusteringSizes,
     largest: LargestGrid,
@@ -106,7 +106,7 @@ impl Engine {
             marking: run.marking,
             assigner: chosen.assigner,
             resolution: run.resolution,
-            timed_scopes: if run.scopes == Scopes::All { usize::MAX } else { 1 },
+            timed: timed(run.scopes),
             staging: [staging()?, staging()?],
             lights: make_buffer(&session.context, BufferName::Lights, light_bytes, Memory::Device)?,
             pipelines: session.store.pipelines(&chosen.variant(run, &mode))?,
@@ -249,7 +249,7 @@ impl Engine {
             &mut self.tree,
             &mut this.timestamps,
             &mut session.tracker,
-            self.timed_scopes,
+            self.timed,
         );
         body(&mut recorder, &frame);
     }
@@ -257,6 +257,15 @@ impl Engine {
     /// What the device found out in the frame that ended in `slot`.
     pub fn states(&self, session: &Session, slot: usize) -> Vec<ClusteringState> {
         session.frame_slots[slot].states.read(0, self.clusterings.len())
+    }
+}
+
+/// Which scopes of frames get timestamps.
+fn timed(scopes: Scopes) -> Timed {
+    match scopes {
+        Scopes::Frame => Timed::Frame,
+        Scopes::All => Timed::Stages,
+        Scopes::Passes => Timed::Passes,
     }
 }
 

@@ -82,6 +82,12 @@ pub struct Pipeline {
 }
 
 impl Pipeline {
+    /// The name without folder and extension.
+    pub fn stem(&self) -> &str {
+        let file = self.name.rsplit('/').next().unwrap_or_default();
+        file.split('.').next().unwrap_or_default()
+    }
+
     /// Pipeline `number` of the program, which draws into no colour target.
     pub fn new(pipeline: gpu::Pipeline, layout: PipelineLayout, name: &str, number: usize) -> Self {
         let (name, label) = (name.to_owned(), c_string(name));

@@ -82,6 +82,10 @@ impl<'a> Dispatch<'a> {
 impl Recorder<'_> {
     /// Records a compute pass, after all that it reads and writes.
     pub fn dispatch(&mut self, pass: &Dispatch) {
+        self.pass(pass.pipeline.stem(), |r| r.record_dispatch(pass));
+    }
+
+    fn record_dispatch(&mut self, pass: &Dispatch) {
         let dispatches = pass.buffers.handles[BufferName::Dispatches as usize];
         let declared = Declared { reads: pass.reads, writes: pass.writes };
         let sampled =

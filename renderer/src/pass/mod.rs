@@ -11,7 +11,7 @@ pub use crate::gpu_interface::Push;
 pub use access::{Access, Use};
 pub use compute::{DepthImage, Dispatch, Size};
 pub use declared::Declared;
-pub use recorder::{Faults, FrameTracker, Recorder, ScopeName, ScopeSpan, ScopeTree, Timestamps};
+pub use recorder::{Faults, FrameTracker, Recorder, ScopeName, ScopeSpan, ScopeTree, Timed, Timestamps};
 pub use transfer::BufferCopy;
 
 #[cfg(test)]

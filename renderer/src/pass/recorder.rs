@@ -11,24 +11,24 @@ use std::time::{Duration, Instant};
 
 /// Name of a stage; `cluster[0]` where it has an index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ScopeName {
-    stem: &'static str,
+pub struct ScopeName<'n> {
+    stem: &'n str,
     index: Option<u32>,
 }
 
-impl From<&'static str> for ScopeName {
-    fn from(stem: &'static str) -> Self {
+impl<'n> From<&'n str> for ScopeName<'n> {
+    fn from(stem: &'n str) -> Self {
         Self { stem, index: None }
     }
 }
 
-impl From<(&'static str, usize)> for ScopeName {
-    fn from((stem, index): (&'static str, usize)) -> Self {
+impl<'n> From<(&'n str, usize)> for ScopeName<'n> {
+    fn from((stem, index): (&'n str, usize)) -> Self {
         Self { stem, index: Some(index as u32) }
     }
 }
 
-impl fmt::Display for ScopeName {
+impl fmt::Display for ScopeName<'_> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self.index {
             Some(index) => write!(f, "{}[{index}]", self.stem),
@@ -37,9 +37,21 @@ impl fmt::Display for ScopeName {
     }
 }
 
+/// Which scopes get timestamps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Timed {
+    /// The outermost alone: the frame.
+    Frame,
+    /// Every stage.
+    Stages,
+    /// Every stage, and every compute pass as a stage of its own.
+    Passes,
+}
+
 #[derive(Debug)]
 struct Scope {
-    name: ScopeName,
+    stem: String,
+    index: Option<u32>,
     /// Position of the enclosing scope.
     parent: Option<usize>,
     path: String,
@@ -62,7 +74,7 @@ impl ScopeTree {
 
     /// The scope at `position`, made (and what followed it dropped) where it is not the one of the last frame.
     fn enter(&mut self, position: usize, name: ScopeName, parent: Option<usize>) {
-        let known = self.scopes.get(position).is_some_and(|s| s.name == name && s.parent == parent);
+        let known = self.scopes.get(position).is_some_and(|s| s.is_called(name) && s.parent == parent);
         if known {
             return;
         }
@@ -72,7 +84,19 @@ impl ScopeTree {
             Some(parent) => format!("{}/{label}", self.scopes[parent].path),
             None => label.clone(),
         };
-        self.scopes.push(Scope { name, parent, path, label: c_string(&label) });
+        let ScopeName { stem, index } = name;
+        self.scopes.push(Scope { stem: stem.to_owned(), index, parent, path, label: c_string(&label) });
+    }
+
+    /// How many of the first `opened` scopes are children of `parent` with this stem.
+    fn count(&self, opened: usize, stem: &str, parent: Option<usize>) -> usize {
+        self.scopes[..opened].iter().filter(|scope| scope.parent == parent && scope.stem == stem).count()
+    }
+}
+
+impl Scope {
+    fn is_called(&self, name: ScopeName) -> bool {
+        self.stem == name.stem && self.index == name.index
     }
 }
 
@@ -100,9 +124,9 @@ pub struct ScopeSpan {
     pub cpu_time: Duration,
 }
 
-/// More scopes than any method's stage tree has for `views` views.
+/// More scopes than any method's stage tree has for `views` views, each pass counted.
 const fn most_scopes(views: usize) -> usize {
-    16 + 32 * views
+    32 + 96 * views
 }
 
 impl Timestamps {
@@ -170,8 +194,7 @@ pub struct Recorder<'a> {
     tree: &'a mut ScopeTree,
     timestamps: &'a mut Timestamps,
     tracker: &'a mut FrameTracker,
-    /// How many scopes, from the outermost on, get timestamps.
-    timed_scopes: usize,
+    timed: Timed,
     opened: usize,
     current: Option<usize>,
 }
@@ -194,15 +217,14 @@ pub struct Faults {
 }
 
 impl<'a> Recorder<'a> {
-    /// Starts a frame on an open command buffer. `timed_scopes` limits how many scopes get timestamps (1: the
-    /// frame alone).
+    /// Starts a frame on an open command buffer.
     pub fn new(
         context: &'a Context,
         commands: vk::CommandBuffer,
         tree: &'a mut ScopeTree,
         timestamps: &'a mut Timestamps,
         tracker: &'a mut FrameTracker,
-        timed_scopes: usize,
+        timed: Timed,
     ) -> Self {
         tracker.tracker.begin_frame();
         timestamps.places.clear();
@@ -217,7 +239,7 @@ impl<'a> Recorder<'a> {
             tree,
             timestamps,
             tracker,
-            timed_scopes,
+            timed,
             opened: 0,
             current: None,
         };
@@ -232,13 +254,13 @@ impl<'a> Recorder<'a> {
     }
 
     /// Runs `body` as a stage: labelled, timed, child of the stage that is open.
-    pub fn scope<R>(&mut self, name: impl Into<ScopeName>, body: impl FnOnce(&mut Self) -> R) -> R {
+    pub fn scope<'n, R>(&mut self, name: impl Into<ScopeName<'n>>, body: impl FnOnce(&mut Self) -> R) -> R {
         let position = self.opened;
         assert!(2 * position < self.timestamps.values.len(), "a frame has more stages than queries");
         self.opened += 1;
         self.tree.enter(position, name.into(), self.current);
         let outer = self.current.replace(position);
-        let timed = position < self.timed_scopes;
+        let timed = self.timed != Timed::Frame || position == 0;
         self.context.begin_label(self.commands, &self.tree.scopes[position].label);
         if timed {
             let begin = self.timestamp();
@@ -254,6 +276,15 @@ impl<'a> Recorder<'a> {
         self.context.end_label(self.commands);
         self.current = outer;
         result
+    }
+
+    /// Runs `body` as a pass: a stage of its own where passes are timed. A stage's passes by one name are numbered.
+    pub(super) fn pass(&mut self, name: &str, body: impl FnOnce(&mut Self)) {
+        if self.timed != Timed::Passes {
+            return body(self);
+        }
+        let number = self.tree.count(self.opened, name, self.current);
+        self.scope((name, number), body);
     }
 
     /// Waits for what `accesses` need; the commands that follow may then do what they say.

@@ -49,7 +49,7 @@ pub enum Eyes {
 
 impl Eyes {
     /// The name of their stage: `depth[0]`, or `depth` for all.
-    pub fn stage(self, stem: &'static str) -> ScopeName {
+    pub fn stage(self, stem: &'static str) -> ScopeName<'static> {
         match self {
             Self::One(view) => (stem, view).into(),
             Self::All => stem.into(),
