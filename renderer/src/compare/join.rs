@@ -83,7 +83,8 @@ fn compare_runs(a: &RunEntry, b: &RunEntry, pictures: Option<&Path>) -> Result<R
         frames_missing_in_a: missing(&counters_b),
         frames_missing_in_b: missing(&counters_a),
         counters,
-        times: times::compare(&a.directory, &b.directory, &frames)?,
+        stretch: [a.stretch, b.stretch],
+        times: times::compare([&a.directory, &b.directory], &frames, [a.stretch, b.stretch])?,
         images: images::compare([&a.directory, &b.directory], pictures)?,
     })
 }

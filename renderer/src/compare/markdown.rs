@@ -1,6 +1,6 @@
 //! The comparison as a summary for a merge request.
 
-use super::table::interval;
+use super::table::{interval, load};
 use super::{Comparison, Comparisons, Verdict};
 use crate::output::FRAME;
 use serde::{Serialize, Serializer};
@@ -53,6 +53,9 @@ fn section(f: &mut fmt::Formatter<'_>, comparison: &Comparison) -> fmt::Result {
     for run in &comparison.runs {
         for image in run.images.iter().filter(|image| image.differs()) {
             writeln!(f, "- {}: image {}", cell(&run.run), cell(&image.to_string()))?;
+        }
+        if let Some(load) = load(run) {
+            writeln!(f, "- {}: {load}", cell(&run.run))?;
         }
     }
     let told = |verdict: Verdict| matches!(verdict, Verdict::Faster | Verdict::Slower);

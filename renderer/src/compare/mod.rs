@@ -91,6 +91,8 @@ pub struct RunComparison {
     pub frames_missing_in_b: Vec<u32>,
     /// A row a counter.
     pub counters: Vec<CounterComparison>,
+    /// The factors by which others on the device may have lengthened the times of A and of B; 1 where nothing tells of any.
+    pub stretch: [f64; 2],
     /// A row a stage; empty where either side has no temporal runs.
     pub times: Vec<TimeComparison>,
     /// Layers of frames that both rendered to files.
@@ -140,7 +142,11 @@ pub struct TimeComparison {
     /// Noise of the ratio's logarithm; `None` for fewer than two temporal runs on a side.
     #[serde(skip)]
     noise: Option<Noise>,
-    /// Where the ratio lies, by 95 % intervals that are widened for how many are told; `None` without noise known.
+    /// The factors by which others on the device may have lengthened A and B.
+    #[serde(skip)]
+    stretch: [f64; 2],
+    /// Where the ratio lies, by 95 % intervals that are widened for how many are told and by what others on the device may
+    /// account for; `None` without noise known.
     pub interval: Option<Interval>,
     /// What that lets be said.
     pub verdict: Verdict,

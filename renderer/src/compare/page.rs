@@ -1,6 +1,6 @@
 //! The comparison as a page that opens offline, in the style of the report.
 
-use super::table::interval;
+use super::table::{interval, load};
 use super::{Comparison, Comparisons, RunComparison, TimeComparison, Verdict};
 use crate::Result;
 use crate::output::write_whole;
@@ -76,6 +76,9 @@ fn rows(body: &mut String, run: &RunComparison) {
             "<tr><td class=\"lighting {class}\" colspan=\"6\">image {}</td></tr>",
             text(&what)
         );
+    }
+    if let Some(load) = load(run) {
+        let _ = writeln!(body, "<tr><td class=\"lighting open\" colspan=\"6\">{}</td></tr>", text(&load));
     }
     for time in &run.times {
         let TimeComparison { stage, a_ms, b_ms, ratio, verdict, .. } = time;

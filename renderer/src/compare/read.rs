@@ -3,6 +3,7 @@
 use crate::Result;
 use crate::config::{Axis, Bearing, Config, Role};
 use crate::lights::Lighting;
+use crate::machine::stretch;
 use crate::output::{self, Age, FrameRow, Manifest, Row, Source, each_row, saved_frames};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -27,6 +28,8 @@ pub(super) struct RunEntry {
     pub label: String,
     pub program: String,
     pub device: String,
+    /// The factor by which others on the device may have lengthened its times.
+    pub stretch: f64,
 }
 
 /// All runs under a directory, by path. What stands in a run's own directory is not searched.
@@ -46,6 +49,7 @@ fn read_entry(directory: &Path) -> Result<RunEntry> {
         directory: directory.to_owned(),
         program: format!("manylight {} ({:.12})", run.version, run.git_revision),
         device: format!("{} ({})", run.device.name, run.device.driver),
+        stretch: stretch(&run.machine, &run.conditions),
     })
 }
 

@@ -76,8 +76,10 @@ fn display_run(f: &mut fmt::Formatter<'_>, run: &RunComparison) -> fmt::Result {
     if !same.is_empty() {
         writeln!(f, "  images: {} layers equal in every channel", same.len())?;
     }
-    if run.times.is_empty() {
-        writeln!(f, "  times: not on both sides")?;
+    match load(run) {
+        _ if run.times.is_empty() => writeln!(f, "  times: not on both sides")?,
+        Some(load) => writeln!(f, "  times: {load}")?,
+        None => {}
     }
     if differing.is_empty() && run.times.is_empty() {
         return Ok(());
@@ -91,6 +93,15 @@ fn display_run(f: &mut fmt::Formatter<'_>, run: &RunComparison) -> fmt::Result {
         column.set_cell_alignment(CellAlignment::Right);
     }
     table.lines().try_for_each(|line| writeln!(f, "{}", line.trim_end()))
+}
+
+/// What others on the device may account for, where that is more than a percent.
+pub(super) fn load(run: &RunComparison) -> Option<String> {
+    const TOLD: f64 = 1.01;
+    let [a, b] = run.stretch;
+    (a > TOLD || b > TOLD).then(|| {
+        format!("others on the device's CPUs may have lengthened A's by {a:.2} and B's by {b:.2}: intervals are widened by that")
+    })
 }
 
 fn counter_row(counter: &CounterComparison, frames: usize) -> [String; 7] {

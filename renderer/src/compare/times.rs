@@ -10,11 +10,15 @@ use std::path::Path;
 
 /// A row for every kind of stage that both sides timed, parents first. Frames but those in `frames` are left out. Nothing
 /// is judged yet: every verdict is undecided.
-pub(super) fn compare(a: &Path, b: &Path, frames: &BTreeSet<u32>) -> Result<Vec<TimeComparison>> {
+pub(super) fn compare(
+    [a, b]: [&Path; 2],
+    frames: &BTreeSet<u32>,
+    stretch: [f64; 2],
+) -> Result<Vec<TimeComparison>> {
     let frames: Vec<u32> = frames.iter().copied().collect();
     let [a, b] = [kinds(a, &frames)?, kinds(b, &frames)?];
     let compared = a.iter().filter_map(|(kind, a)| compare_kind(kind, [a, b.get(kind)?]));
-    let mut times: Vec<TimeComparison> = compared.collect();
+    let mut times: Vec<TimeComparison> = compared.map(|time| TimeComparison { stretch, ..time }).collect();
     if let Some(frame_ms) = times.iter().find(|time| time.stage == FRAME).map(|frame| frame.a_ms) {
         times.iter_mut().for_each(|time| time.part_of_frame = time.a_ms / frame_ms);
     }
@@ -50,6 +54,7 @@ fn compare_kind(kind: &str, sides: [&Samples; 2]) -> Option<TimeComparison> {
         spread_over_runs_a,
         spread_over_runs_b,
         noise,
+        stretch: [1.0; 2],
         interval: None,
         verdict: Verdict::Undecided,
     })

@@ -7,6 +7,10 @@
 //! is with a chance of 95 % no such. The intervals told are widened to match (Benjamini and Yekutieli 2005), so that
 //! one rule and one interval decide.
 //!
+//! Where the CPUs are the device, what others took of them may have lengthened times; on two occasions by different
+//! factors, of which the noise within either shows nothing. An interval is widened by as much ([`TimeComparison`]'s `stretch`):
+//! no difference is told that load alone may account for.
+//!
 //! A short stage changes by tens of percent with a clock or with what ran before it, which matters to nobody: a stage's
 //! change must also be a change of the frame ([`LEAST_OF_FRAME`]).
 
@@ -48,14 +52,23 @@ pub struct Tally {
 
 /// Judges times together; a ratio matters that differs from 1 by more than `threshold` (0.01 for one percent).
 pub(super) fn judge(times: &mut [&mut TimeComparison], threshold: f64) {
-    let chances = times.iter().filter_map(|time| Some(time.noise?.chance(time.ratio.ln())));
+    let chances = times.iter().filter_map(|time| Some(time.noise?.chance(unexplained(time))));
     let level = 1.0 - selected_rate(chances.collect());
     for time in times {
         let Some(noise) = time.noise else { continue };
-        let interval = Interval::around(time.ratio.ln(), noise.half_width(level)).exp();
+        let Interval { low, high } = Interval::around(time.ratio.ln(), noise.half_width(level)).exp();
+        let [a, b] = time.stretch;
+        let interval = Interval { low: low / b, high: high * a };
         time.interval = Some(interval);
         time.verdict = verdict(time.ratio, interval, [threshold, time.part_of_frame]);
     }
+}
+
+/// What load does not account for of the logarithm of a ratio.
+fn unexplained(time: &TimeComparison) -> f64 {
+    let [a, b] = time.stretch.map(f64::ln);
+    let difference = time.ratio.ln();
+    if difference > 0.0 { (difference - b).max(0.0) } else { (difference + a).min(0.0) }
 }
 
 /// By the ratio of a stage that took such a part of the frame's time.
@@ -117,7 +130,9 @@ impl fmt::Display for Verdict {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Spread;
     use super::*;
+    use crate::stats::Noise;
 
     #[test]
     fn verdicts_are_by_interval_and_threshold() {
@@ -138,6 +153,38 @@ mod tests {
         assert_eq!(of(1.04, 1.06, 0.01), Verdict::Same, "a twentieth of a percent");
         assert_eq!(of(1.1, 1.6, 0.01), Verdict::Slower);
         assert_eq!(of(0.7, 1.4, 0.01), Verdict::Undecided);
+    }
+
+    fn time(ratio: f64, stretch: [f64; 2]) -> TimeComparison {
+        TimeComparison {
+            stage: "frame".into(),
+            part_of_frame: 1.0,
+            runs: 9,
+            a_ms: 1.0,
+            b_ms: ratio,
+            ratio,
+            over_frames: Spread { min: ratio, median: ratio, max: ratio },
+            spread_over_runs_a: None,
+            spread_over_runs_b: None,
+            noise: Some(Noise { deviation: 0.002, freedom: 8.0 }),
+            stretch,
+            interval: None,
+            verdict: Verdict::Undecided,
+        }
+    }
+
+    #[test]
+    fn no_difference_is_told_that_load_may_account_for() {
+        let of = |ratio: f64, stretch: [f64; 2]| {
+            let mut one = time(ratio, stretch);
+            judge(&mut [&mut one], 0.01);
+            one.verdict
+        };
+        assert_eq!([of(1.05, [1.0; 2]), of(0.95, [1.0; 2])], [Verdict::Slower, Verdict::Faster]);
+        assert_eq!([of(1.05, [1.0, 1.1]), of(0.95, [1.1, 1.0])], [Verdict::Undecided; 2]);
+        assert_eq!([of(1.05, [1.1, 1.0]), of(0.95, [1.0, 1.1])], [Verdict::Slower, Verdict::Faster]);
+        assert_eq!(of(1.25, [1.1, 1.1]), Verdict::Slower);
+        assert_eq!(of(1.0, [1.0, 1.1]), Verdict::Undecided);
     }
 
     #[test]

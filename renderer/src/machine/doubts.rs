@@ -30,6 +30,16 @@ pub fn doubts(machine: &Machine, conditions: &Conditions) -> Vec<String> {
     load.into_iter().chain(rest.into_iter().flatten()).collect()
 }
 
+/// The factor by which others may have lengthened times: where the CPUs are the device, what others took of them was missing,
+/// beyond what sampling may be off. 1 on other devices, and where nothing is known.
+pub fn stretch(machine: &Machine, conditions: &Conditions) -> f64 {
+    let cpu = conditions.cpu.as_ref().filter(|_| machine.device.is_cpu());
+    cpu.map_or(1.0, |cpu| {
+        let taken = (cpu.others_share() - cpu.error()).max(0.0);
+        1.0 / (1.0 - taken).max(f64::MIN_POSITIVE)
+    })
+}
+
 /// Others run on the device.
 fn shared(cpu: &CpuTicks) -> Option<String> {
     (cpu.others_share() > OTHERS_SHARE + cpu.error()).then(|| {
@@ -139,6 +149,17 @@ mod tests {
         // Ten of a hundred ticks may be chance.
         assert_eq!(on("cpu", &others(2, 100, 10)), [""; 0]);
         assert_eq!(on("cpu", &others(2, 100, 16)).len(), 1);
+    }
+
+    #[test]
+    fn what_others_took_of_a_device_that_is_the_cpus_may_have_lengthened_times() {
+        let of = |kind: &str, conditions: &Conditions| {
+            let device = Device { kind: kind.into(), ..Device::default() };
+            stretch(&Machine { device, ..Machine::default() }, conditions)
+        };
+        assert!((of("cpu", &others(2, 10_000, 5100)) - 2.0).abs() < 1e-9);
+        assert_eq!(of("cpu", &others(2, 10_000, 90)), 1.0);
+        assert_eq!([of("discrete", &others(2, 10_000, 5100)), of("cpu", &Conditions::default())], [1.0, 1.0]);
     }
 
     #[test]

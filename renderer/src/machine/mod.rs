@@ -36,7 +36,7 @@ mod probe;
 
 pub use conditions::{Conditions, CpuTicks};
 pub use device::{Device, Heap, uuid_text};
-pub use doubts::{CLOCK_SPREAD, OTHERS_SHARE, THROTTLED_SHARE, doubts};
+pub use doubts::{CLOCK_SPREAD, OTHERS_SHARE, THROTTLED_SHARE, doubts, stretch};
 pub use host::Host;
 pub use probe::{Probe, Sample};
 
