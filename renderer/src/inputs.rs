@@ -2,8 +2,11 @@
 
 use crate::config::Config;
 
-use crate::lights::rain::{Rain, RainParameters};
-use crate::lights::{self, LightSource, Lighting, LightsFile, LightsFrom, PointLight, StaticLights};
+use crate::lights::rain::RainParameters;
+use crate::lights::{
+    self, Corners, Generated, GeneratorKind, LightSource, Lighting, LightsFile, LightsFrom, PointLight,
+    StaticLights, Surroundings,
+};
 use crate::recording::{self, Recording};
 use crate::scene::{self, Scene, procedural};
 use crate::{Error, Result};
@@ -17,15 +20,18 @@ pub struct Inputs {
     pub recording: Recording,
     /// Hexadecimal SHA-256 of the file of static lights, where they come from one.
     pub lights_sha256: Option<String>,
-    /// Lights that do not move; `None` for rain.
+    /// Lights of a file or of the scene; `None` where they are made.
     static_lights: Option<Vec<PointLight>>,
+    /// Whether it rains.
+    rains: bool,
 }
 
 impl Inputs {
     /// Loads or generates what the config names.
     ///
     /// # Errors
-    /// A missing or broken file; a scene without point lights where they were asked for.
+    /// A missing or broken file; a scene without point lights where they were asked for; a recording without rain whose
+    /// box was.
     pub fn load(config: &Config) -> Result<Self> {
         Self::load_with(config, recording::load(&config.recording)?, None)
     }
@@ -42,22 +48,51 @@ impl Inputs {
             None if config.scene_lights => (Some(scene_lights(&scene)?), None),
             None => (None, None),
         };
-        Ok(Self { scene, recording, lights_sha256, static_lights })
+        let generator = config.generator();
+        if static_lights.is_none() && generator.asks_for_rain_box() && recording.rain().is_none() {
+            return Err(Error::input(format!(
+                "light_box: recording {} brings no rain that has a box: give `scene` or corners",
+                recording.name()
+            )));
+        }
+        let rains = static_lights.is_none() && generator.kind() == GeneratorKind::Rain;
+        Ok(Self { scene, recording, lights_sha256, static_lights, rains })
     }
 
     /// Lights for one run over the frames, at its first frame or before.
     ///
     /// # Errors
-    /// Rain that does not fit into memory or whose parameters are out of range.
+    /// Lights that do not fit into memory; rain whose parameters are out of range.
     pub fn light_source(&self, lights: &LightsFrom) -> Result<Box<dyn LightSource>> {
         match (lights, &self.static_lights) {
-            (LightsFrom::Rain(lighting), _) => {
-                let dt_s = self.recording.file().dt_s;
-                Ok(Box::new(Rain::new(&self.rain(), lighting, dt_s, 0)?))
+            (LightsFrom::Generated(generator, lighting), _) => {
+                generator.lights(lighting, &self.surroundings())
             }
             (_, Some(lights)) => Ok(Box::new(StaticLights(lights.clone()))),
             (_, None) => Err(Error::Internal("static lights were not loaded".into())),
         }
+    }
+
+    /// What is told of lights that are made; `None` of others.
+    ///
+    /// # Errors
+    /// A number of lights that cannot be made.
+    pub fn generated(&self, lights: &LightsFrom) -> Result<Option<Generated>> {
+        match lights {
+            LightsFrom::Generated(generator, lighting) => {
+                generator.generated(lighting, &self.surroundings()).map(Some)
+            }
+            LightsFrom::File(_) | LightsFrom::Scene => Ok(None),
+        }
+    }
+
+    /// Where and in what time lights are made; without anything to draw, the scene's box is that of the default rain.
+    fn surroundings(&self) -> Surroundings {
+        let rain = self.rain();
+        let scene =
+            self.scene.bounds().map(|corners| <[_; 2]>::from(corners).map(|at| at.as_vec3().to_array()));
+        let [min, max] = scene.unwrap_or([rain.box_min, rain.box_max]);
+        Surroundings { rain, scene: Corners { min, max }, dt_s: self.recording.file().dt_s }
     }
 
     /// The rain of the recording; where it brings none, rain in the box around the scene.
@@ -70,8 +105,7 @@ impl Inputs {
 
     /// Says where it rains, where the recording does not.
     pub fn rain_note(&self) -> Option<String> {
-        let falls = self.static_lights.is_none() && self.recording.rain().is_none();
-        falls.then(|| {
+        (self.rains && self.recording.rain().is_none()).then(|| {
             let RainParameters { box_min, box_max, .. } = self.rain();
             format!(
                 "recording {} brings no rain: it rains in the scene's box, from {box_min:.1?} to {box_max:.1?}",
@@ -86,7 +120,7 @@ impl Inputs {
     /// The lights were not loaded.
     pub fn light_count(&self, lights: &LightsFrom) -> Result<u32> {
         match (lights, &self.static_lights) {
-            (LightsFrom::Rain(lighting), _) => Ok(lighting.count),
+            (LightsFrom::Generated(_, lighting), _) => Ok(lighting.count),
             (_, Some(lights)) => Ok(lights.len() as u32),
             (_, None) => Err(Error::Internal("static lights were not loaded".into())),
         }

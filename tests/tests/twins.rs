@@ -8,7 +8,7 @@ use manylight::engine::{FramePlan, plan_frames};
 use manylight::geometry::Frustum;
 use manylight::geometry::views::View;
 use manylight::inputs::Inputs;
-use manylight::lights::{Attenuation, Lighting, PointLight};
+use manylight::lights::{Attenuation, GeneratorKind, LightMotion, Lighting, PointLight};
 use manylight::measure::{ClusterRecord, ViewPixels};
 use manylight::methods::grid::twin;
 use manylight_tests::{Run, run, unpacked};
@@ -144,7 +144,11 @@ fn marks_equal_their_twin() {
 
 /// The lists of a whole frame by `method`, for visible or for all clusters, on the device and by the family's twin.
 fn compare_lists(method: &str, clusters: Clusters) {
-    let config = Config {
+    compare_lists_of(config_of_lists(method, clusters));
+}
+
+fn config_of_lists(method: &str, clusters: Clusters) -> Config {
+    Config {
         methods: vec![method.parse().unwrap()],
         clusters: vec![clusters],
         resolution: [160, 90],
@@ -152,7 +156,11 @@ fn compare_lists(method: &str, clusters: Clusters) {
         frames: FrameRange { first: 300, end: Some(301), step: 1 },
         runs: 0.into(),
         ..Config::default()
-    };
+    }
+}
+
+fn compare_lists_of(config: Config) {
+    let (method, clusters) = (config.methods[0], config.clusters[0]);
     let inputs = Inputs::load(&config).unwrap();
     let lights = inputs.light_source(&config.lights_of_run()).unwrap().at_frame(300).list.to_vec();
     let (plan, test) = (plan(&config), config.test[0].of(&config.methods[0]));
@@ -184,6 +192,25 @@ fn lists_of_frames_equal_their_twin() {
     compare_lists("tiled-16", Clusters::All);
     compare_lists("encl-persp-32", Clusters::All);
     compare_lists("indi-ortho-8", Clusters::Visible);
+}
+
+#[test]
+fn lists_of_lights_that_other_generators_make_equal_their_twin() {
+    let config = config_of_lists("indi-persp-32", Clusters::Visible);
+    let gamma = Config {
+        light_source: GeneratorKind::Gamma,
+        light_motion: Some(LightMotion::Bounce),
+        light_radius_mean: Some(3.0),
+        ..config.clone()
+    };
+    compare_lists_of(gamma);
+    let volumes = ["scene:10x5x10", "-20,0,-20,20,8,20:5x10x10:0,0.5,0,1:6"];
+    compare_lists_of(Config {
+        light_source: GeneratorKind::Volume,
+        light_volumes: volumes.map(|text| text.parse().unwrap()).to_vec(),
+        light_set: Some("1x_1y_2z".parse().unwrap()),
+        ..config
+    });
 }
 
 /// What fragments on the far plane cost: it is where the depth buffer is cleared to, and seen by the test for equal

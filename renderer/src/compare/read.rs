@@ -2,7 +2,7 @@
 
 use crate::Result;
 use crate::config::{Axis, Bearing, Config, Role};
-use crate::lights::Lighting;
+use crate::lights::{GeneratorKind, Lighting};
 use crate::machine::stretch;
 use crate::output::{self, Age, FrameRow, Manifest, Row, Source, each_row, saved_frames};
 use serde_json::Value;
@@ -87,8 +87,13 @@ fn identity(run: &Manifest) -> Result<Identity> {
 fn label(run: &Manifest) -> String {
     let Config { resolution: [width, height], msaa, attenuation, marking, lights_file, .. } = &run.config;
     let lighting = match (run.lighting, &run.lights_file, lights_file) {
-        (Some(Lighting { count, intensity, cutoff, r0 }), ..) => {
-            format!("{count} lights (I {intensity}, I0 {cutoff}, R0 {r0})")
+        (Some(Lighting { count, cutoff, r0, .. }), ..) => {
+            let by = match run.config.light_source {
+                GeneratorKind::Rain => String::new(),
+                source => format!(" by {source}"),
+            };
+            let intensity = run.intensity().map_or_else(String::new, |intensity| format!("I {intensity}, "));
+            format!("{count} lights{by} ({intensity}I0 {cutoff}, R0 {r0})")
         }
         (None, Some(input), _) => input_name(input),
         (None, None, Some(path)) => path.display().to_string(),

@@ -88,7 +88,7 @@ pub static AXES: [Axis; 7] = [
     },
     Axis {
         name: "lights",
-        description: "How many lights fall.",
+        description: "How many lights are made.",
         column: "lighting",
         role: Role::Lighting,
         values: Values::Counts,
@@ -325,13 +325,10 @@ fn name_and_stem(name: &str) -> Vec<String> {
 
 /// What tells a lighting from the others.
 fn lighting_name(lights: &LightsFrom, all: &[LightsFrom]) -> String {
-    let count = |lights: &LightsFrom| match lights {
-        LightsFrom::Rain(lighting) => Some(lighting.count),
-        LightsFrom::File(_) | LightsFrom::Scene => None,
-    };
-    match lights {
-        LightsFrom::Rain(Lighting { count: n, intensity, cutoff, r0 })
-            if all.iter().filter(|other| count(other) == Some(*n)).count() > 1 =>
+    let count = |lights: &LightsFrom| lights.lighting().map(|lighting| lighting.count);
+    match lights.lighting() {
+        Some(Lighting { count: n, intensity, cutoff, r0 })
+            if all.iter().filter(|other| count(other) == Some(n)).count() > 1 =>
         {
             format!("{n}-{intensity}-{cutoff}-{r0}")
         }

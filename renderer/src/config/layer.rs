@@ -1,12 +1,14 @@
 //! Layers over a configuration: what a layer gives replaces what was there.
 
 use super::{Config, Layer};
+use crate::lights::GeneratorKind;
 
 impl Config {
-    /// Lays a layer over this configuration: what it gives replaces what was there. The three fields that say
-    /// where lights come from count as one, and so do those that name scenes.
+    /// Lays a layer over this configuration: what it gives replaces what was there. The fields that say where lights
+    /// come from count as one, and so do those that name scenes.
     pub(super) fn apply(&mut self, layer: Layer) -> Result<(), String> {
         self.make_room_for_lights(&layer)?;
+        self.make_room_for_generator(&layer)?;
         self.make_room_for_scenes(&layer)?;
         self.replace(layer);
         Ok(())
@@ -37,12 +39,12 @@ impl Config {
         Ok(())
     }
 
-    /// Lights of the rain, of a file and of the scene replace each other; without those of the scene, which were asked
-    /// for below, the default rain falls.
+    /// Lights that are made, of a file and of the scene replace each other; without those of the scene, which were asked
+    /// for below, there are as many as by default.
     fn make_room_for_lights(&mut self, layer: &Layer) -> Result<(), String> {
-        let rain = layer.lights.as_ref().is_some_and(|lights| !lights.is_empty());
+        let made = layer.lights.as_ref().is_some_and(|lights| !lights.is_empty());
         let scene = layer.scene_lights == Some(true);
-        let sources = [rain, layer.lights_file.is_some(), scene].into_iter().filter(|given| *given).count();
+        let sources = [made, layer.lights_file.is_some(), scene].into_iter().filter(|given| *given).count();
         if sources > 1 {
             return Err("lights, lights_file and scene_lights exclude each other: give one of them".into());
         }
@@ -50,6 +52,22 @@ impl Config {
             (self.lights, self.lights_file, self.scene_lights) = (Vec::new(), None, false);
         } else if layer.scene_lights == Some(false) && self.scene_lights {
             self.lights = Self::default().lights;
+        }
+        Ok(())
+    }
+
+    /// Another generator, a file and the scene each replace the generator below with all that was said to it; a generator
+    /// replaces a file and the scene.
+    fn make_room_for_generator(&mut self, layer: &Layer) -> Result<(), String> {
+        let elsewhere = layer.lights_file.is_some() || layer.scene_lights == Some(true);
+        if elsewhere && layer.light_source.is_some_and(|source| source != GeneratorKind::Rain) {
+            return Err("light_source excludes lights_file and scene_lights: give one of them".into());
+        }
+        if elsewhere || layer.light_source.is_some_and(|source| source != self.light_source) {
+            self.forget_generator();
+        }
+        if layer.light_source.is_some() && !elsewhere && (self.lights_file.is_some() || self.scene_lights) {
+            (self.lights, self.lights_file, self.scene_lights) = (Self::default().lights, None, false);
         }
         Ok(())
     }

@@ -10,6 +10,7 @@ mod exclude;
 mod file;
 mod frames;
 mod layer;
+mod lights;
 mod runs;
 mod scenes;
 mod schema;
@@ -150,9 +151,7 @@ impl Config {
     /// Names the first field at fault.
     pub fn check(&self) -> Result<()> {
         self.check_values().map_err(Error::Input)?;
-        if self.lights_from().is_empty() {
-            return Err(Error::input("lights: no lighting: give at least one, such as 1000"));
-        }
+        self.check_lights()?;
         self.check_runs().map_err(Error::Input)?;
         if self.runs.is_none() && !self.trace.is_empty() {
             return Err(Error::input("trace: there is no temporal run to trace: set runs to 1 or more"));
@@ -187,17 +186,6 @@ impl Config {
         }
         let (scene, recording) = (self.scene.clone(), self.recording.clone());
         vec![SceneEntry { scene, recording, resolution: None, frames: None }]
-    }
-
-    /// Where lights come from: every lighting of the rain, or the file, or the scene.
-    pub fn lights_from(&self) -> Vec<LightsFrom> {
-        if let Some(path) = &self.lights_file {
-            return vec![LightsFrom::File(path.clone())];
-        }
-        if self.scene_lights {
-            return vec![LightsFrom::Scene];
-        }
-        self.lights.iter().copied().map(LightsFrom::Rain).collect()
     }
 
     /// The frames to render of a recording with `available` frames, ascending.

@@ -9,7 +9,7 @@ use super::{
 use crate::assign::{Clusters, Marking};
 use crate::culling::Culling;
 use crate::geometry::DisplacedVolume;
-use crate::lights::{Attenuation, Lighting};
+use crate::lights::{Attenuation, GeneratorKind, LightBox, LightMotion, LightSet, LightVolume, Lighting};
 use crate::measure::Order;
 use crate::methods::{KINDS, Method, Sharing, Space};
 use schemars::JsonSchema;
@@ -59,7 +59,7 @@ settings! {
         write(serialize_with = "ser::methods")
         check(values::check_methods)
     }
-    /// Falling lights: how many, intensity I (100), cut-off I0 (0.5), near radius R0 (0.1 m). Each lighting is
+    /// Lights that are made: how many, intensity I (100), cut-off I0 (0.5), near radius R0 (0.1 m). Each lighting is
     /// a run of every method; the flag is repeated for several.
     lights: Vec<Lighting> = vec![Lighting::with_count(1000)], Run {
         arg(long, value_name = "N[,I,I0,R0]")
@@ -67,12 +67,56 @@ settings! {
         schemars(with = "Option<Vec<Lighting>>")
         check(values::check_lights)
     }
-    /// Static lights from a CSV file (columns `x,y,z,r,g,b,i,i0,r0` and maybe `r1`) instead of falling ones.
+    /// What makes the lights: `rain`, in which they fall; `gamma`, at random in a box, with gamma-distributed radii
+    /// (Enhuber); or `volume`, on lattices in boxes (Tegelaers).
+    light_source: GeneratorKind = GeneratorKind::Rain, Counts {
+        arg(long, value_enum)
+    }
+    /// Seed of `gamma` and `volume` (1); rain has the recording's.
+    light_seed: u64, Counts {
+        arg(long, value_name = "N")
+    }
+    /// Where `gamma` and `volume` make lights: in the box around the scene (`scene`, the default), in that of the recording's
+    /// rain (`rain`), or in a box of its own, metres.
+    light_box: LightBox, Counts {
+        arg(long, value_name = "scene|rain|X0,Y0,Z0,X1,Y1,Z1", allow_hyphen_values = true)
+        schemars(with = "Option<String>")
+    }
+    /// How lights of `gamma` move: not at all (`static`, the default), or by up to 1 m/s along each axis and back at the
+    /// faces of their box (`bounce`).
+    light_motion: LightMotion, Counts {
+        arg(long, value_enum)
+    }
+    /// Most frequent radius of `gamma`, metres (0.25); below the mean.
+    light_radius_mode: f64, Counts {
+        arg(long, value_name = "METRES", allow_hyphen_values = true)
+        schemars(range(min = 0))
+    }
+    /// Mean radius of `gamma`, metres (1).
+    light_radius_mean: f64, Counts {
+        arg(long, value_name = "METRES", allow_hyphen_values = true)
+        schemars(extend("exclusiveMinimum" = 0))
+    }
+    /// Boxes of `volume`, each with the lights along its axes, such as `-5,0,-5,5,4,5:10x4x10`; maybe turned about its middle by a
+    /// quaternion, and with lights that end at R1 metres. Without a box it is `light_box`; without any volume that is one, with a
+    /// lattice of cells that are nearly cubes. The flag is repeated for several.
+    light_volumes: Vec<LightVolume> = Vec::new(), Counts {
+        arg(long = "light-volume", value_name = "[BOX:]NXxNYxNZ[:QX,QY,QZ,QW][:R1]", allow_hyphen_values = true)
+        schemars(with = "Option<Vec<String>>")
+        write(skip_serializing_if = "Vec::is_empty")
+    }
+    /// How many times as many lights the boxes of `volume` have along their axes, such as `2x_1y_3z`; as the number of lights
+    /// has it where it is not given.
+    light_set: LightSet, Counts {
+        arg(long, value_name = "ax_by_cz")
+        schemars(with = "Option<String>")
+    }
+    /// Static lights from a CSV file (columns `x,y,z,r,g,b,i,i0,r0` and maybe `r1`) instead of made ones.
     lights_file: PathBuf, Outside {
         arg(long, value_name = "FILE.csv")
         check(values::check_path)
     }
-    /// The scene's own point lights (KHR_lights_punctual) instead of falling ones.
+    /// The scene's own point lights (KHR_lights_punctual) instead of made ones.
     scene_lights: bool = false, Shown {
         arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")
     }

@@ -1,6 +1,7 @@
 //! Configurations: from text to values and back.
 
 use super::*;
+use crate::lights::{GammaRadii, GammaRecipe, Generator, GeneratorKind, LightBox, LightMotion, VolumeRecipe};
 use crate::methods::Method;
 use std::path::PathBuf;
 

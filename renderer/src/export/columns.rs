@@ -1,20 +1,28 @@
 //! What a table says of the run that a row is of.
 
 use crate::config::{AXES, Axis};
+use crate::lights::{Generated, GeneratedBox};
 use crate::output::Manifest;
 use crate::report::Found;
 use serde_json::Value;
 
 /// Fields of a run's configuration that are no axes and bear on what it measures; their columns are called as they.
-const OPTIONS: [&str; 7] =
-    ["msaa", "attenuation", "marking", "displaced_volume", "culling", "multiview", "scopes"];
+const OPTIONS: [&str; 8] =
+    ["light_source", "msaa", "attenuation", "marking", "displaced_volume", "culling", "multiview", "scopes"];
 
 /// A column with the cell of a run.
 type Column = (&'static str, fn(&Manifest) -> String);
 
 /// What else of a run's manifest there is.
-const ABOUT: [Column; 14] = [
-    ("intensity", |run| run.lighting.map_or_else(String::new, |lighting| lighting.intensity.to_string())),
+const ABOUT: [Column; 17] = [
+    ("light_seed", |run| generated(run, |lights| lights.seed.to_string())),
+    ("light_motion", |run| generated(run, |lights| lights.motion.clone())),
+    ("light_boxes", |run| {
+        generated(run, |lights| {
+            lights.boxes.iter().map(GeneratedBox::to_string).collect::<Vec<_>>().join("; ")
+        })
+    }),
+    ("intensity", |run| run.intensity().map_or_else(String::new, |intensity| intensity.to_string())),
     ("cutoff", |run| run.lighting.map_or_else(String::new, |lighting| lighting.cutoff.to_string())),
     ("r0", |run| run.lighting.map_or_else(String::new, |lighting| lighting.r0.to_string())),
     ("assigned_by", |run| run.assigned_by.clone()),
@@ -29,6 +37,11 @@ const ABOUT: [Column; 14] = [
     ("git_revision", |run| run.git_revision.clone()),
     ("started", |run| run.started.clone()),
 ];
+
+/// What a run's manifest tells of lights that were made; empty where they were not, or by an earlier version.
+fn generated(run: &Manifest, tell: impl Fn(&Generated) -> String) -> String {
+    run.generated.as_ref().map_or_else(String::new, tell)
+}
 
 /// The columns of every row: where the run lies, its value on each axis, and how it was measured. An axis that is called as
 /// one of the columns `measured` has `_axis` behind its name.

@@ -1,5 +1,6 @@
-//! Where the lights of a run come from, and what rain is made of.
+//! Where the lights of a run come from, and how many and how strong those are that are made.
 
+use super::{Generator, PointLight};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -23,8 +24,8 @@ pub struct Lighting {
 /// Where the lights of one run come from.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LightsFrom {
-    /// Falling lights of this number and strength.
-    Rain(Lighting),
+    /// Lights that are made, of this number and strength.
+    Generated(Generator, Lighting),
     /// Static lights of a CSV file.
     File(PathBuf),
     /// The scene's own point lights.
@@ -89,6 +90,18 @@ impl Lighting {
         (self.intensity / self.cutoff).sqrt()
     }
 
+    /// A light of this strength in the world's origin, white.
+    pub(super) fn light(&self) -> PointLight {
+        PointLight::new([0.0; 3], [1.0; 3], self.intensity, self.cutoff, self.r0)
+    }
+
+    /// A light that ends at `r1` metres, where its intensity I0*R1^2 has fallen to the cut-off. Its near radius is at most
+    /// R1/2.
+    pub(super) fn light_of_radius(&self, position: [f32; 3], tint: [f32; 3], r1: f32) -> PointLight {
+        let (cutoff, r0) = (self.cutoff, self.r0.min(0.5 * r1));
+        PointLight { position, tint, intensity: cutoff * r1 * r1, cutoff, r0, r1 }
+    }
+
     /// Refuses zero lights, values that are not positive and finite, and R0 not below R1.
     pub(crate) fn check(self) -> Result<Self, String> {
         if self.count == 0 {
@@ -130,11 +143,21 @@ impl FromStr for Lighting {
     }
 }
 
+impl LightsFrom {
+    /// Number and strength of lights that are made.
+    pub fn lighting(&self) -> Option<Lighting> {
+        match self {
+            Self::Generated(_, lighting) => Some(*lighting),
+            Self::File(_) | Self::Scene => None,
+        }
+    }
+}
+
 impl fmt::Display for LightsFrom {
     /// Writes what tells the lights of one run from another's: the count, the file, or `scene`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Rain(lighting) => write!(f, "{}", lighting.count),
+            Self::Generated(_, lighting) => write!(f, "{}", lighting.count),
             Self::File(path) => write!(f, "{}", path.display()),
             Self::Scene => f.write_str("scene"),
         }

@@ -1,15 +1,28 @@
-//! Point lights of one frame, wherever they come from: rain, a CSV file, the scene.
+//! Point lights of one frame, wherever they come from: a generator (rain, gamma, volumes), a CSV file, the scene.
 
 mod attenuation;
 mod csv_file;
+mod gamma;
+mod generator;
 mod lighting;
+mod motion;
+mod place;
 pub mod rain;
+mod random;
+mod spelled;
+mod volume;
 
 pub use attenuation::Attenuation;
 pub use csv_file::{LightsFile, load_csv};
+pub use gamma::{GammaLights, GammaRadii, GammaRecipe};
+pub use generator::{Generated, GeneratedBox, Generator, GeneratorKind, Surroundings};
 pub use lighting::{Lighting, LightsFrom};
+pub use motion::LightMotion;
+pub use place::{Corners, LightBox};
+pub use volume::{LightSet, LightVolume, VolumeRecipe};
 
 use self::rain::Rain;
+use self::spelled::spelled;
 use crate::scene::SceneLight;
 use crate::{Error, Result};
 use serde::Serialize;
@@ -82,7 +95,7 @@ pub struct FrameLights<'a> {
     pub revision: u64,
 }
 
-/// What gives every frame its lights: rain, or lights that stay.
+/// What gives every frame its lights: those that move, such as rain, or those that stay.
 pub trait LightSource {
     /// The lights of `frame`.
     fn at_frame(&mut self, frame: u32) -> FrameLights<'_>;
@@ -103,6 +116,14 @@ impl LightSource for Rain {
         self.advance_to(frame);
         FrameLights { list: self.lights(), revision: frame.into() }
     }
+}
+
+/// An empty list with room for `count` elements, or an error instead of an abort.
+fn reserve<T>(count: u32) -> Result<Vec<T>> {
+    let mut list = Vec::new();
+    list.try_reserve_exact(count as usize)
+        .map_err(|_| Error::input(format!("{count} lights do not fit into memory; ask for fewer")))?;
+    Ok(list)
 }
 
 /// The point lights that a scene brings along (KHR_lights_punctual), with cut-off I0 and near radius R0 (metres).

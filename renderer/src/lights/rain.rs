@@ -14,9 +14,10 @@ mod tests;
 pub use parameters::RainParameters;
 
 use crate::json::Check;
-use crate::lights::{Lighting, PointLight};
+use crate::lights::random::uniform_vector;
+use crate::lights::{Lighting, PointLight, reserve};
 use crate::{Error, Result};
-use drop::{Motion, uniform_vector};
+use drop::Motion;
 use rayon::prelude::*;
 
 /// Lights that one task steps at least; fewer are not worth handing to another thread.
@@ -46,7 +47,7 @@ impl Rain {
         if !(dt.is_finite() && dt > 0.0) {
             return Err(Error::input(format!("rain: a time step of {dt_s} s is not above 0")));
         }
-        let template = PointLight::new([0.0; 3], [1.0; 3], lighting.intensity, lighting.cutoff, lighting.r0);
+        let template = lighting.light();
         template.check().map_err(|(field, message)| Error::input(format!("lights: {field}: {message}")))?;
         let mut rain = Self {
             parameters: *parameters,
@@ -98,12 +99,4 @@ impl Rain {
         lights.map(start).unzip_into_vecs(&mut self.lights, &mut self.motions);
         self.frame = 0;
     }
-}
-
-/// An empty list with room for `count` elements, or an error instead of an abort.
-fn reserve<T>(count: u32) -> Result<Vec<T>> {
-    let mut list = Vec::new();
-    list.try_reserve_exact(count as usize)
-        .map_err(|_| Error::input(format!("{count} lights do not fit into memory; ask for fewer")))?;
-    Ok(list)
 }

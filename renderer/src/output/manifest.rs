@@ -2,7 +2,7 @@
 
 use super::strict::{refuse, shown};
 use crate::config::Config;
-use crate::lights::Lighting;
+use crate::lights::{Generated, GeneratorKind, Lighting};
 use crate::machine::{Conditions, Machine};
 use crate::measure::{Capacities, GrowthEvent, Timing};
 use crate::{Error, Result};
@@ -36,7 +36,7 @@ pub struct Manifest {
     pub fingerprint: String,
     /// The method's name.
     pub method: String,
-    /// Lighting of the rain; `None` where lights come from a file or the scene.
+    /// Number and strength of lights that were made; `None` where lights come from a file or the scene.
     pub lighting: Option<Lighting>,
     /// The fully resolved configuration of this run alone; it can be replayed as it is.
     pub config: Config,
@@ -50,6 +50,9 @@ pub struct Manifest {
     /// The file of static lights, where they come from one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lights_file: Option<Source>,
+    /// What made the lights, where they come from neither a file nor the scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub generated: Option<Generated>,
     /// Rows of `frames.csv`.
     pub frame_count: Option<usize>,
     /// The device that rendered.
@@ -102,6 +105,12 @@ pub struct DeviceInfo {
 }
 
 impl Manifest {
+    /// Intensity of all lights that were made; `None` where each has one of its own, or they were not made.
+    pub fn intensity(&self) -> Option<f32> {
+        let lighting = self.lighting.filter(|_| self.config.light_source != GeneratorKind::Gamma)?;
+        Some(lighting.intensity)
+    }
+
     /// How many temporal runs there are; earlier versions made as many as they were told.
     pub fn temporal_runs(&self) -> u32 {
         self.timing.as_ref().map(|timing| timing.runs).or(self.config.runs.fixed()).unwrap_or(0)

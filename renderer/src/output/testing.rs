@@ -24,6 +24,7 @@ pub(super) fn manifest() -> Manifest {
         scene: Source { name: "street".into(), sha256: "00".into() },
         recording: Source { name: "bistro-vive".into(), sha256: "11".into() },
         lights_file: None,
+        generated: None,
         frame_count: Some(1),
         device: DeviceInfo { name: "llvmpipe".into(), driver: "Mesa".into(), api: "1.3.230".into() },
         machine: Machine {

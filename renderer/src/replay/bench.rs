@@ -16,7 +16,7 @@ use crate::engine::{
 use crate::geometry::SphereTest;
 use crate::gpu_interface::ClusteringState;
 use crate::inputs::Inputs;
-use crate::lights::{FrameLights, Lighting, LightsFrom};
+use crate::lights::{FrameLights, Generator, Lighting, LightsFrom};
 use crate::methods::Method;
 use crate::output::makes_lists;
 use crate::passes::readback;
@@ -92,7 +92,7 @@ pub fn bench_assign(
     let mut session = Session::new(config, &inputs.scene, inputs.recording.view_set())?;
     session.context.require_timestamps()?;
     for lighting in &bench.lights {
-        let mut source = inputs.light_source(&LightsFrom::Rain(*lighting))?;
+        let mut source = inputs.light_source(&LightsFrom::Generated(Generator::Rain, *lighting))?;
         for &frame in &bench.frames {
             let lights = source.at_frame(frame);
             let range = FrameRange { first: frame, end: Some(frame + 1), step: 1 };

@@ -52,7 +52,7 @@ fn sha256(bytes: &[u8]) -> String {
 mod tests {
     use super::*;
     use crate::config::{Assign, ExrFrames};
-    use crate::lights::Lighting;
+    use crate::lights::{GeneratorKind, LightBox, LightMotion, Lighting};
     use crate::measure::Order;
 
     #[test]
@@ -83,6 +83,17 @@ mod tests {
             Config { assign: vec![Assign::Scatter], ..base.clone() },
             Config { test: vec!["exact".parse().unwrap()], ..base.clone() },
         ];
+        let gamma = Config { light_source: GeneratorKind::Gamma, ..base.clone() };
+        let made = [
+            Config { light_seed: Some(2), ..gamma.clone() },
+            Config { light_box: Some(LightBox::Rain), ..gamma.clone() },
+            Config { light_motion: Some(LightMotion::Bounce), ..gamma.clone() },
+            Config { light_radius_mode: Some(0.5), ..gamma.clone() },
+            Config { light_source: GeneratorKind::Volume, ..base.clone() },
+        ];
+        for config in made {
+            assert_ne!(of("a", &config), of("a", &gamma));
+        }
         for config in changed {
             assert_ne!(of("a", &config), same);
         }

@@ -3,7 +3,6 @@
 use super::{Part, Reporter};
 use crate::config::Assign;
 use crate::inputs::Inputs;
-use crate::lights::LightsFrom;
 use crate::machine::{Host, Machine, Roots, doubts};
 use crate::measure::{FrameCounts, Timing, ViewPixels};
 use crate::output::{
@@ -60,24 +59,22 @@ impl Files<'_> {
         Some(Source { name, sha256: self.inputs.lights_sha256.clone()? })
     }
 
-    fn manifest(&self, run: &PlannedRun, result: &RunResult) -> Manifest {
+    fn manifest(&self, run: &PlannedRun, result: &RunResult) -> Result<Manifest> {
         let Inputs { scene, recording, .. } = self.inputs;
         let machine = Machine { host: Host::read(&Roots::default()), device: result.device.hardware.clone() };
-        Manifest {
+        Ok(Manifest {
             format: RUN_FORMAT.into(),
             version: env!("CARGO_PKG_VERSION").into(),
             git_revision: git_revision().into(),
             fingerprint: self.fingerprint.clone(),
             method: run.method.to_string(),
-            lighting: match run.lights {
-                LightsFrom::Rain(lighting) => Some(lighting),
-                LightsFrom::File(_) | LightsFrom::Scene => None,
-            },
+            lighting: run.lights.lighting(),
             config: run.config.clone(),
             assigned_by: result.assigner.to_string(),
             scene: Source { name: scene.name.clone(), sha256: scene.sha256.clone() },
             recording: Source { name: recording.name().to_owned(), sha256: recording.sha256().to_owned() },
             lights_file: self.lights_file(),
+            generated: self.inputs.generated(&run.lights)?,
             frame_count: Some(result.counts.len()),
             device: device(&result.device),
             doubts: doubts(&machine, &result.conditions),
@@ -88,7 +85,7 @@ impl Files<'_> {
             growth: result.growth.clone(),
             started: rfc3339_utc(result.started),
             duration_s: result.duration.as_secs_f64(),
-        }
+        })
     }
 }
 
@@ -127,7 +124,7 @@ impl RunSink for Files<'_> {
     }
 
     fn finish(&mut self, run: &PlannedRun, result: RunResult) -> Result<()> {
-        let manifest = self.manifest(run, &result);
+        let manifest = self.manifest(run, &result)?;
         let writer = self.writer.take().ok_or_else(not_begun)?;
         if !result.traces.is_empty() {
             self.noted(writer.write_trace(&result.traces))?;

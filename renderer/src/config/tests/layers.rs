@@ -34,7 +34,7 @@ fn every_spelling_of_the_text_is_the_same_configuration() {
 #[test]
 fn sources_of_light_replace_each_other_as_one() {
     let sources = |layers: &[&str]| resolved(layers).unwrap().lights_from();
-    let rain = vec![LightsFrom::Rain(Lighting::with_count(7))];
+    let rain = vec![LightsFrom::Generated(Generator::Rain, Lighting::with_count(7))];
     assert_eq!(sources(&[r#"{"lights_file": "l.csv"}"#]), [LightsFrom::File("l.csv".into())]);
     assert_eq!(sources(&[r#"{"scene_lights": true}"#]), [LightsFrom::Scene]);
     assert_eq!(sources(&[r#"{"lights_file": "l.csv"}"#, r#"{"lights": [{"count": 7}]}"#]), rain);
@@ -42,6 +42,39 @@ fn sources_of_light_replace_each_other_as_one() {
     let default = Config::default().lights_from();
     assert_eq!(sources(&[r#"{"scene_lights": true}"#, r#"{"scene_lights": false}"#]), default);
     assert_eq!(sources(&[r#"{"scene_lights": false}"#]), default);
+}
+
+#[test]
+fn a_generator_is_replaced_with_all_that_was_said_to_it() {
+    let last = |layers: &[&str]| resolved(layers).unwrap().lights_from().remove(0);
+    let generator = |layers: &[&str]| match last(layers) {
+        LightsFrom::Generated(generator, _) => generator,
+        other => panic!("{other}"),
+    };
+    let gamma = r#"{"light_source": "gamma", "light_seed": 9, "light_radius_mean": 2, "light_box": "rain"}"#;
+    let recipe =
+        GammaRecipe { seed: 9, radii: GammaRadii { mode: 0.25, mean: 2.0 }, motion: LightMotion::Static };
+    assert_eq!(generator(&[gamma]), Generator::Gamma(LightBox::Rain, recipe));
+    let seeded = GammaRecipe { seed: 3, ..recipe };
+    assert_eq!(generator(&[gamma, r#"{"light_seed": 3}"#]), Generator::Gamma(LightBox::Rain, seeded));
+    assert_eq!(generator(&[gamma, r#"{"light_source": "gamma"}"#]), Generator::Gamma(LightBox::Rain, recipe));
+    let usual = VolumeRecipe { seed: 1, volumes: vec![], set: None };
+    assert_eq!(
+        generator(&[gamma, r#"{"light_source": "volume"}"#]),
+        Generator::Volume(LightBox::Scene, usual)
+    );
+    assert_eq!(generator(&[gamma, r#"{"light_source": "rain"}"#]), Generator::Rain);
+    assert_eq!(last(&[gamma, r#"{"scene_lights": true}"#]), LightsFrom::Scene);
+    assert_eq!(last(&[gamma, r#"{"lights_file": "l.csv"}"#]), LightsFrom::File("l.csv".into()));
+    for elsewhere in [r#"{"scene_lights": true}"#, r#"{"lights_file": "l.csv"}"#] {
+        assert_eq!(generator(&[elsewhere, gamma]), Generator::Gamma(LightBox::Rain, recipe));
+        assert_eq!(generator(&[elsewhere, r#"{"light_source": "rain"}"#]), Generator::Rain);
+    }
+    let seven = last(&[gamma, r#"{"lights": [{"count": 7}]}"#]);
+    assert_eq!(
+        seven,
+        LightsFrom::Generated(Generator::Gamma(LightBox::Rain, recipe), Lighting::with_count(7))
+    );
 }
 
 #[test]
@@ -55,6 +88,22 @@ fn a_resolved_configuration_is_a_configuration_file_again() {
             ..Config::default()
         },
         Config { lights: Vec::new(), lights_file: Some("l.csv".into()), msaa: 4, ..Config::default() },
+        Config {
+            light_source: GeneratorKind::Gamma,
+            light_seed: Some(u64::MAX),
+            light_box: Some("-1,0,-1,1,0.1,1".parse().unwrap()),
+            light_motion: Some(LightMotion::Bounce),
+            light_radius_mode: Some(0.1),
+            light_radius_mean: Some(0.3),
+            ..Config::default()
+        },
+        Config {
+            light_source: GeneratorKind::Volume,
+            light_box: Some(LightBox::Rain),
+            light_volumes: vec!["10x5x10".parse().unwrap(), "scene:5x5x20:0,0,1,1:2.5".parse().unwrap()],
+            light_set: Some("1x_1y_1z".parse().unwrap()),
+            ..Config::default()
+        },
         Config {
             assign: vec![Assign::Auto, Assign::Brute],
             test: vec!["hs+sat-n".parse().unwrap(), Test::Auto],

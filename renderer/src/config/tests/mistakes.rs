@@ -98,6 +98,43 @@ fn mistakes_in_files_are_named_with_line_column_and_nearest_name() {
             "{\"scene_lights\": true, \"lights_file\": \"l.csv\"}",
             "lights, lights_file and scene_lights exclude each other: give one of them",
         ),
+        (
+            "{\"scene_lights\": true, \"light_source\": \"gamma\"}",
+            "light_source excludes lights_file and scene_lights: give one of them",
+        ),
+        (
+            "{\"light_source\": \"gama\"}",
+            "line 1, column 18: light_source: unknown value `gama`; did you mean `gamma`?",
+        ),
+        (
+            "{\"light_box\": \"0,0,0,1,1,0\"}",
+            "line 1, column 15: light_box: the box 0,0,0,1,1,0 is empty: X1, Y1 and Z1 must lie above X0, Y0 and Z0",
+        ),
+        (
+            "{\"light_seed\": 3}",
+            "light_seed: lights by rain have none: leave it out, or set light_source to gamma or volume",
+        ),
+        (
+            "{\"light_source\": \"volume\", \"light_motion\": \"bounce\"}",
+            "light_motion: lights by volume have none: leave it out, or set light_source to gamma",
+        ),
+        (
+            "{\"light_source\": \"gamma\", \"light_radius_mean\": 0.2}",
+            "lights: a most frequent radius of 0.25 m: it is at least 0 and below the mean radius, 0.2 m",
+        ),
+        (
+            "{\"light_source\": \"gamma\", \"lights\": [{\"count\": 5, \"intensity\": 20}]}",
+            "lights: 5,20,0.5,0.1: each light's intensity is I0*R1^2 by its radius: leave I out, or at 100",
+        ),
+        (
+            "{\"light_source\": \"volume\", \"light_set\": \"1x_3y_1z\"}",
+            "lights: 1000 lights: the set 1x_3y_1z has a multiple of 3, such as 999",
+        ),
+        (
+            "{\"light_source\": \"volume\", \"light_volumes\": [\"10x4\"]}",
+            "line 1, column 46: light_volumes[0]: `10x4` is no volume of lights [BOX:]NXxNYxNZ[:QX,QY,QZ,QW][:R1] such as \
+             -5,0,-5,5,4,5:10x4x10",
+        ),
         ("[]", "line 1, column 1: a configuration is one JSON object, { \"field\": value, ... }"),
         ("{\n\"runs\": 1,\n}", "line 3, column 1: trailing comma"),
         ("", "line 1, column 0: EOF while parsing a value"),

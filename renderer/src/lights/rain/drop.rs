@@ -1,7 +1,7 @@
 //! One drop of rain: how it starts, falls and respawns, from random numbers of its own.
 
 use super::RainParameters;
-use rand_core::Rng;
+use crate::lights::random::{generator, uniform_vector};
 use rand_pcg::Pcg32;
 
 /// What a light needs to go on falling, more than its place.
@@ -42,26 +42,4 @@ impl RainParameters {
             (*position, *motion, _) = self.start(light, motion.life.wrapping_add(1));
         }
     }
-}
-
-/// The generator of one life of one light: its own stream, and a state that no other seed or life is near to.
-fn generator(seed: u64, light: u32, life: u32) -> Pcg32 {
-    let key = u64::from(light) << 32 | u64::from(life);
-    Pcg32::new(scramble(seed ^ scramble(key)), key)
-}
-
-/// The finaliser of SplitMix64 (Steele, Lea and Flood 2014; constants of Vigna's version).
-fn scramble(value: u64) -> u64 {
-    let value = value.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let value = (value ^ (value >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let value = (value ^ (value >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    value ^ (value >> 31)
-}
-
-/// Uniform in low..=high on each axis, in steps of 2^-24 of the range.
-pub(super) fn uniform_vector(random: &mut Pcg32, low: [f32; 3], high: [f32; 3]) -> [f32; 3] {
-    std::array::from_fn(|axis| {
-        let fraction = (random.next_u32() >> 8) as f32 * (1.0 / 16_777_216.0);
-        (low[axis] + fraction * (high[axis] - low[axis])).min(high[axis])
-    })
 }

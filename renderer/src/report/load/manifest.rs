@@ -36,10 +36,12 @@ pub fn setting(run: &Manifest, views: u32, method: Method) -> Result<Setting> {
 
 /// Where its light came from.
 pub fn lighting(run: &Manifest) -> LightingName {
-    if let Some(Lighting { count, intensity, cutoff, r0 }) = run.lighting {
+    if let Some(Lighting { count, cutoff, r0, .. }) = run.lighting {
         let mut label = format!("{} lights", grouped(u64::from(count)));
         // The thesis's intensity of each count goes without saying.
-        if !matches!((count, intensity), (1000, 100.0) | (10_000, 20.0) | (100_000, 1.0)) {
+        let usual =
+            |intensity: f32| matches!((count, intensity), (1000, 100.0) | (10_000, 20.0) | (100_000, 1.0));
+        if let Some(intensity) = run.intensity().filter(|intensity| !usual(*intensity)) {
             label += &format!(", I {intensity}");
         }
         for (name, value, usual) in [("I₀", cutoff, 0.5), ("R₀", r0, 0.1)] {
