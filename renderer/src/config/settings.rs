@@ -9,7 +9,7 @@ use super::{
 use crate::assign::{Clusters, Marking};
 use crate::culling::Culling;
 use crate::geometry::DisplacedVolume;
-use crate::lights::{Attenuation, GeneratorKind, LightBox, LightMotion, LightSet, LightVolume, Lighting};
+use crate::lights::{Attenuation, GeneratorKind, LatticeBox, LightBox, LightMotion, LightSet, Lighting};
 use crate::measure::Order;
 use crate::methods::{KINDS, Method, Sharing, Space};
 use schemars::JsonSchema;
@@ -100,7 +100,7 @@ settings! {
     /// Boxes of `volume`, each with the lights along its axes, such as `-5,0,-5,5,4,5:10x4x10`; maybe turned about its middle by a
     /// quaternion, and with lights that end at R1 metres. Without a box it is `light_box`; without any volume that is one, with a
     /// lattice of cells that are nearly cubes. The flag is repeated for several.
-    light_volumes: Vec<LightVolume> = Vec::new(), Counts {
+    light_volumes: Vec<LatticeBox> = Vec::new(), Counts {
         arg(long = "light-volume", value_name = "[BOX:]NXxNYxNZ[:QX,QY,QZ,QW][:R1]", allow_hyphen_values = true)
         schemars(with = "Option<Vec<String>>")
         write(skip_serializing_if = "Vec::is_empty")

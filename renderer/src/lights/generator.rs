@@ -10,7 +10,7 @@ use super::gamma::{GammaLights, GammaRadii, GammaRecipe};
 use super::motion::LightMotion;
 use super::place::{Corners, LightBox};
 use super::rain::{Rain, RainParameters};
-use super::volume::{LightVolume, PlacedVolume, VolumeRecipe};
+use super::volume::{LatticeBox, PlacedVolume, VolumeRecipe};
 use super::{LightSource, Lighting, StaticLights};
 use crate::{Error, Result};
 use clap::ValueEnum;
@@ -117,7 +117,7 @@ impl Surroundings {
     }
 
     fn volumes(&self, place: LightBox, recipe: &VolumeRecipe, count: u32) -> Result<Vec<PlacedVolume>> {
-        let of = |volume: Option<&LightVolume>| {
+        let of = |volume: Option<&LatticeBox>| {
             self.corners(volume.and_then(|volume| volume.place).unwrap_or(place))
         };
         recipe.placed(count, of).map_err(|message| Error::input(format!("lights: {message}")))

@@ -19,7 +19,7 @@ pub use generator::{Generated, GeneratedBox, Generator, GeneratorKind, Surroundi
 pub use lighting::{Lighting, LightsFrom};
 pub use motion::LightMotion;
 pub use place::{Corners, LightBox};
-pub use volume::{LightSet, LightVolume, VolumeRecipe};
+pub use volume::{LatticeBox, LightSet, VolumeRecipe};
 
 use self::rain::Rain;
 use self::spelled::spelled;

@@ -16,7 +16,7 @@ mod set;
 mod shape;
 
 pub use set::LightSet;
-pub use shape::LightVolume;
+pub use shape::LatticeBox;
 
 use super::place::Corners;
 use super::random::{generator, saturated_hue};
@@ -30,7 +30,7 @@ pub struct VolumeRecipe {
     /// Seed of the hues.
     pub seed: u64,
     /// The volumes; where there are none, the box of the lights is one.
-    pub volumes: Vec<LightVolume>,
+    pub volumes: Vec<LatticeBox>,
     /// How many times as many lights along each axis; found from the number of lights where `None`.
     pub set: Option<LightSet>,
 }
@@ -70,7 +70,7 @@ impl VolumeRecipe {
     pub(super) fn placed(
         &self,
         count: u32,
-        place: impl Fn(Option<&LightVolume>) -> Corners,
+        place: impl Fn(Option<&LatticeBox>) -> Corners,
     ) -> Result<Vec<PlacedVolume>, String> {
         let set = self.set_of(count)?;
         if self.volumes.is_empty() {
@@ -78,7 +78,7 @@ impl VolumeRecipe {
             let base = lattice::nearest_to_cubes(count / set.factor(), within.sides());
             return Ok(vec![PlacedVolume { within, turn: None, lattice: set.times(base), r1: None }]);
         }
-        let placed = |volume: &LightVolume| PlacedVolume {
+        let placed = |volume: &LatticeBox| PlacedVolume {
             within: place(Some(volume)),
             turn: volume.turn,
             lattice: set.times(volume.lattice),

@@ -7,7 +7,7 @@ use std::str::FromStr;
 
 /// An oriented box with lights on a lattice, written `[BOX:]NXxNYxNZ[:QX,QY,QZ,QW][:R1]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LightVolume {
+pub struct LatticeBox {
     /// The box before it is turned; the box of the lights where `None`.
     pub place: Option<LightBox>,
     /// Lights along each of its axes in the set 1x_1y_1z.
@@ -18,14 +18,14 @@ pub struct LightVolume {
     pub r1: Option<f32>,
 }
 
-impl LightVolume {
+impl LatticeBox {
     /// Lights of the set 1x_1y_1z.
     pub(super) fn light_count(&self) -> u32 {
         self.lattice.iter().product()
     }
 }
 
-impl fmt::Display for LightVolume {
+impl fmt::Display for LatticeBox {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { place, lattice: [nx, ny, nz], turn, r1 } = self;
         if let Some(place) = place {
@@ -39,7 +39,7 @@ impl fmt::Display for LightVolume {
     }
 }
 
-impl FromStr for LightVolume {
+impl FromStr for LatticeBox {
     type Err = String;
 
     /// Reads what [`fmt::Display`] writes.
@@ -68,7 +68,7 @@ impl FromStr for LightVolume {
     }
 }
 
-impl LightVolume {
+impl LatticeBox {
     /// Refuses lattices without lights, quaternions without direction, and radii that no light has.
     fn check(self, text: &str) -> Result<Self, String> {
         let count = self.lattice.iter().try_fold(1_u32, |count, &n| count.checked_mul(n));
@@ -94,4 +94,4 @@ fn lattice(text: &str) -> Option<[u32; 3]> {
     text.split('x').map(read).collect::<Option<Vec<_>>>()?.try_into().ok()
 }
 
-spelled!(LightVolume);
+spelled!(LatticeBox);

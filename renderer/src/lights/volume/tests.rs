@@ -13,7 +13,7 @@ fn recipe(volumes: &[&str], set: Option<&str>) -> VolumeRecipe {
 }
 
 fn placed(recipe: &VolumeRecipe, count: u32) -> Vec<PlacedVolume> {
-    let place = |volume: Option<&LightVolume>| match volume.and_then(|volume| volume.place) {
+    let place = |volume: Option<&LatticeBox>| match volume.and_then(|volume| volume.place) {
         Some(LightBox::Corners(corners)) => corners,
         _ => ROOM,
     };
@@ -47,7 +47,7 @@ fn volumes_are_read_as_they_are_written() {
     for text in
         ["10x4x10", "scene:1x2x3", "rain:1x2x3:0,1,0,1", "-5,0,-5,5,4,5:10x4x10:0.5,0,0,1:23", "1x1x1:2.5"]
     {
-        assert_eq!(text.parse::<LightVolume>().unwrap().to_string(), text);
+        assert_eq!(text.parse::<LatticeBox>().unwrap().to_string(), text);
     }
     for (wrong, part) in [
         ("", "is no volume"),
@@ -61,7 +61,7 @@ fn volumes_are_read_as_they_are_written() {
         ("1x1x1:0,0,0,0", "quaternion of no length"),
         ("1x1x1:0", "lights of radius 0 m"),
     ] {
-        let message = wrong.parse::<LightVolume>().unwrap_err();
+        let message = wrong.parse::<LatticeBox>().unwrap_err();
         assert!(message.contains(part), "{wrong}: {message}");
     }
 }
