@@ -53,6 +53,7 @@ pub mod sweep;
 pub mod targets;
 mod text;
 pub mod texture_sets;
+pub mod tune;
 pub mod vk;
 
 pub use error::{Error, Result};

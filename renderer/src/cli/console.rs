@@ -114,6 +114,11 @@ impl Progress {
         self.0.set_length(steps);
     }
 
+    /// `steps` more are to be done.
+    pub fn lengthen(&self, steps: u64) {
+        self.0.inc_length(steps);
+    }
+
     /// `steps` steps need not be done.
     pub fn skip(&self, steps: u64) {
         self.0.set_length(self.0.length().unwrap_or(0).saturating_sub(steps));

@@ -14,6 +14,7 @@ mod report;
 mod scene;
 mod selftest;
 mod still;
+mod tune;
 mod usage;
 
 pub use console::{Console, Progress};
@@ -66,6 +67,8 @@ enum Command {
     Report(report::Args),
     /// Look at one frame from any camera: clusters, frusta, light volumes, heat maps
     Still(Box<still::Args>),
+    /// Find the sizes, ways of assignment and tests by which methods are fastest
+    Tune(Box<tune::Args>),
     /// Compare result sets run by run: counters exactly, times against their noise
     Compare(compare::Args),
     /// Write results as one table for pandas, R or a spreadsheet
@@ -110,6 +113,7 @@ fn dispatch(command: Command, console: &Console) -> Result<()> {
         Command::Replay(args) => replay::run(*args, console),
         Command::Report(args) => report::run(&args, console),
         Command::Still(args) => still::run(*args, console),
+        Command::Tune(args) => tune::run(*args, console),
         Command::Compare(args) => compare::run(&args, console),
         Command::Export(args) => export::run(&args, console),
         Command::Bench(args) => bench::run(args, console),

@@ -58,6 +58,17 @@ impl Wanted {
         }
     }
 
+    /// Any of some values of an axis.
+    fn of(kind: Values, values: &[String]) -> Self {
+        match (kind, values) {
+            (Values::Names, [name]) => Self::Names(Names::One(name.clone())),
+            (Values::Names, names) => Self::Names(Names::Any(names.to_vec())),
+            (Values::Counts, counts) => {
+                Self::Counts(Counts::Any(counts.iter().filter_map(|count| count.parse().ok()).collect()))
+            }
+        }
+    }
+
     /// Reads alternatives with `|` between; `None` where a number is none.
     fn parse(values: Values, text: &str) -> Option<Self> {
         let parts = text.split('|').map(str::trim);
@@ -88,6 +99,15 @@ fn axis_names() -> [&'static str; AXES.len()] {
 }
 
 impl Exclude {
+    /// Leaves out what has one of the values given on each of some axes.
+    pub fn of(given: &[(&'static Axis, Vec<String>)]) -> Self {
+        let mut rule = Self::default();
+        for (axis, values) in given {
+            rule.set(axis, Wanted::of(axis.values, values));
+        }
+        rule
+    }
+
     /// Whether the run of a configuration is left out.
     pub fn matches(&self, run: &Config) -> bool {
         self.wanted.iter().all(|(axis, wanted)| {

@@ -63,6 +63,16 @@ impl Assign {
     }
 }
 
+impl From<Assigner> for Assign {
+    fn from(assigner: Assigner) -> Self {
+        match assigner {
+            Assigner::Brute => Self::Brute,
+            Assigner::Hierarchy => Self::Hierarchy,
+            Assigner::Scatter => Self::Scatter,
+        }
+    }
+}
+
 /// Frames first..last by step; `last` excluded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "String")]
@@ -129,7 +139,15 @@ impl Config {
     /// The file cannot be read or holds something wrong (said with line and column), or the result is not a
     /// configuration that can be run.
     pub fn resolve(file: Option<&Path>, flags: Layer) -> Result<Self> {
-        let mut config = Self::default();
+        Self::default().under(file, flags)
+    }
+
+    /// As [`Self::resolve`], with this in place of the defaults.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn under(self, file: Option<&Path>, flags: Layer) -> Result<Self> {
+        let mut config = self;
         if let Some(path) = file {
             config.apply(file::read(path)?).map_err(|message| Error::file(path, message))?;
             config.check().map_err(|error| Error::file(path, error))?;

@@ -53,6 +53,10 @@ impl SphereTest {
     /// HS alone: the test of the thesis for perspective clusters.
     pub const HALF_SPACES: Self = Self::Separating(Separators::HALF_SPACES);
 
+    /// `hs+sat-n`: half spaces, then the axis to the nearest vertex.
+    pub const HALF_SPACES_AND_NEAREST: Self =
+        Self::Separating(Separators(Separators::HALF_SPACES.0 | Separators::NEAREST_VERTEX.0));
+
     /// Names to suggest; the axes of `sat` combine freely.
     const KNOWN: [&str; 7] = ["exact", "box", "hs", "hs+sat-n", "hs+sat-epv", "sat-epv", "auto"];
 

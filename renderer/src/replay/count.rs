@@ -1,6 +1,7 @@
 //! The atemporal run: it comes first, so that buffers have grown before anything is timed.
 
 use super::{RunResult, RunSink, Watch, choose};
+use crate::assign::Assigner;
 use crate::engine::{Engine, FramePlan, LargestGrid, Mode, Session, count_frame, plan_frames};
 use crate::inputs::Inputs;
 use crate::machine::Conditions;
@@ -9,7 +10,7 @@ use crate::{Result, still};
 use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 
-/// A run that was counted and is not timed yet.
+/// A run that is ready to be timed: counted, or at least planned.
 pub struct Counted {
     /// Its frames.
     pub(super) plans: Arc<[FramePlan]>,
@@ -24,6 +25,11 @@ impl Counted {
     pub(super) fn mode(&self, counting: bool) -> Mode {
         let RunResult { capacities, assigner, .. } = self.result;
         Mode { lights: self.lights, capacities, assigner, counting }
+    }
+
+    /// How its lists are built.
+    pub fn assigner(&self) -> Assigner {
+        self.result.assigner
     }
 
     /// The largest grid of its frames.
@@ -42,7 +48,24 @@ pub fn count(
     run: &PlannedRun,
     (watch, sink): (&Watch, &mut dyn RunSink),
 ) -> Result<Counted> {
-    let (started, begun) = (SystemTime::now(), Instant::now());
+    let begun = Instant::now();
+    let mut counted = prepare(inputs, session, run)?;
+    count_frames(inputs, session, run, (watch, sink), &mut counted)?;
+    let RunResult { counts, .. } = &mut counted.result;
+    if counted.lights > 0 && counts.iter().all(|frame| frame.counters.needed_computations == 0) {
+        tracing::warn!("{}: no light reaches anything that is seen, in any frame", run.name);
+    }
+    sink.counted(counts)?;
+    counted.result.duration = begun.elapsed();
+    Ok(counted)
+}
+
+/// What is known of a run before a frame of it is rendered.
+///
+/// # Errors
+/// As [`super::replay`].
+pub fn prepare(inputs: &Inputs, session: &mut Session, run: &PlannedRun) -> Result<Counted> {
+    let started = SystemTime::now();
     let plans = plan_frames(&run.config, &inputs.recording)?;
     let result = RunResult {
         counts: Vec::with_capacity(plans.len()),
@@ -57,15 +80,7 @@ pub fn count(
         started,
         duration: Duration::ZERO,
     };
-    let mut counted = Counted { plans: plans.into(), lights: inputs.light_count(&run.lights)?, result };
-    count_frames(inputs, session, run, (watch, sink), &mut counted)?;
-    let RunResult { counts, .. } = &mut counted.result;
-    if counted.lights > 0 && counts.iter().all(|frame| frame.counters.needed_computations == 0) {
-        tracing::warn!("{}: no light reaches anything that is seen, in any frame", run.name);
-    }
-    sink.counted(counts)?;
-    counted.result.duration = begun.elapsed();
-    Ok(counted)
+    Ok(Counted { plans: plans.into(), lights: inputs.light_count(&run.lights)?, result })
 }
 
 fn count_frames(

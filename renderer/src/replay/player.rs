@@ -75,7 +75,17 @@ impl<'a> Player<'a> {
         Ok(counted)
     }
 
-    /// Times counted runs in turn, each into its sink. After an error the device may be lost.
+    /// Makes a run ready to be timed without counting it: buffers grow where a timed frame needs more.
+    ///
+    /// # Errors
+    /// The device cannot play the run, or views cannot be served.
+    pub fn prepare(&mut self, run: &PlannedRun) -> Result<Counted> {
+        let counted = count::prepare(self.inputs, &mut self.session, run)?;
+        Engine::check(&mut self.session, &run.config, counted.largest(), &counted.mode(false))?;
+        Ok(counted)
+    }
+
+    /// Times runs that are counted, or prepared, in turn, each into its sink. After an error the device may be lost.
     ///
     /// # Errors
     /// As [`super::replay`], with the run it happened to. Of the others those that were not finished in their sinks are not

@@ -11,7 +11,7 @@ use std::rc::Rc;
 use std::sync::atomic::AtomicBool;
 
 /// Most runs of a group: an interruption costs what was measured of one.
-const MOST: usize = 32;
+pub(crate) const MOST: usize = 32;
 
 /// Engines may take one part in so many of the device's own memory: scene and targets need some of it, and so do drivers and
 /// other programs.
@@ -90,7 +90,12 @@ pub(super) fn overfills(player: &Player, group: &[Member], more: &Member) -> boo
     let bytes =
         |member: &Member| member.counted.as_ref().map_or(0, |counted| player.bytes(member.run, counted));
     let all: u64 = group.iter().chain([more]).map(bytes).sum();
-    all > player.device_bytes() / MEMORY_SHARE
+    all > most_bytes(player)
+}
+
+/// What the engines of a group may take of the device's memory, bytes.
+pub(crate) fn most_bytes(player: &Player) -> u64 {
+    player.device_bytes() / MEMORY_SHARE
 }
 
 /// Times a group.

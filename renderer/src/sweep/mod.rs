@@ -21,6 +21,7 @@ mod writer;
 pub use driver::{Outcome, Reporter, Sweep};
 pub use failure::Failure;
 pub use fingerprint::Fingerprint;
+pub(crate) use group::{MOST, most_bytes};
 pub use product::{Part, parts};
 pub use selection::{Selection, Shard};
 pub use table::{Doubtful, summary};

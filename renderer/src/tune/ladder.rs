@@ -1,0 +1,106 @@
+//! The candidates of a search: pure.
+//!
+//! Sizes go from twice the named one down to an eighth, by steps of a quarter to a half; where a method has two, by
+//! halves. Those below what makes sense are left out, but for the named ones themselves.
+
+use crate::config::{Config, Exclude};
+use crate::methods::Method;
+use crate::output::{PlannedRun, planned_runs};
+
+/// Parts of the named size, the largest first.
+const FINE: [f64; 9] = [2.0, 1.5, 1.0, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.125];
+
+/// The same where two sizes vary.
+const COARSE: [f64; 5] = [2.0, 1.0, 0.5, 0.25, 0.125];
+
+/// The least size of pixels.
+const LEAST_PIXELS: f64 = 4.0;
+
+/// The least size of metres.
+const LEAST_METRES: f64 = 0.25;
+
+/// Methods like `named`, of all sizes that are tried: of those alike in their other sizes, the largest first.
+pub fn ladder(named: &Method) -> Vec<Method> {
+    let (kind, sizes) = (named.kind(), named.sizes());
+    let parts: &[f64] = if sizes.len() > 1 { &COARSE } else { &FINE };
+    let steps = kind.sizes.iter().zip(&sizes).map(|(name, &size)| {
+        let least = if *name == "PIXELS" { LEAST_PIXELS } else { LEAST_METRES };
+        let steps = parts.iter().map(move |part| size * part);
+        steps.filter(|&step| step >= least || step == size).collect::<Vec<_>>()
+    });
+    // The first size varies fastest.
+    let products = steps.fold(vec![vec![]], |products: Vec<Vec<f64>>, steps| {
+        let with = |step: f64| products.iter().map(move |sizes| [sizes.as_slice(), &[step]].concat());
+        steps.iter().flat_map(|&step| with(step)).collect()
+    });
+    products.iter().map(|sizes| kind.with_sizes(sizes)).collect()
+}
+
+/// What a candidate shares with those that differ from it in their first size alone.
+pub fn chain(run: &PlannedRun) -> String {
+    let sizes = run.method.sizes();
+    let others = sizes.get(1..).unwrap_or_default();
+    format!("{others:?} {} {} {:?}", run.assign, run.test, run.config.clusters)
+}
+
+/// The runs that are tried in place of `named`, with ways of assignment, tests and choices of clusters as the
+/// configuration has them; and how many combinations cannot be, by a test that does not serve the method or by a rule.
+pub fn candidates(named: &PlannedRun, config: &Config) -> (Vec<PlannedRun>, usize) {
+    let Config { assign, test, clusters, .. } = config.clone();
+    let methods = ladder(&named.method);
+    let all = planned_runs(&Config { methods, assign, test, clusters, ..named.config.clone() });
+    let ruled_out = |run: &PlannedRun| config.exclude.iter().any(|rule: &Exclude| rule.matches(&run.config));
+    let count = all.len();
+    let left: Vec<_> = all.into_iter().filter(|run| run.check().is_ok() && !ruled_out(run)).collect();
+    let dropped = count - left.len();
+    (left, dropped)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(named: &str) -> Vec<String> {
+        ladder(&named.parse().unwrap()).iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn sizes_go_from_twice_to_an_eighth_and_no_further_than_makes_sense() {
+        let persp = names("indi-persp-64");
+        assert_eq!(
+            (persp.len(), persp[0].as_str(), persp[8].as_str()),
+            (9, "indi-persp-128", "indi-persp-8")
+        );
+        let small =
+            ["encl-ortho-1", "encl-ortho-0.75", "encl-ortho-0.5", "encl-ortho-0.375", "encl-ortho-0.25"];
+        assert_eq!(names("encl-ortho-0.5"), small);
+        assert_eq!(names("tiled-2"), ["tiled-4", "tiled-2"]);
+        assert_eq!(names("all-lights"), ["all-lights"]);
+    }
+
+    #[test]
+    fn two_sizes_vary_each_by_halves() {
+        let displ = names("indi-displ-64-32");
+        assert_eq!(displ.len(), 25);
+        let first = ["indi-displ-128-64", "indi-displ-64-64"];
+        assert_eq!([displ[0].as_str(), &displ[1]], first);
+        assert!(displ.contains(&"indi-displ-8-4".to_owned()));
+    }
+
+    #[test]
+    fn candidates_are_the_product_without_what_cannot_be() {
+        let config = Config {
+            methods: vec!["indi-persp-8".parse().unwrap()],
+            assign: ["brute", "scatter"].map(|name| name.parse().unwrap()).to_vec(),
+            test: ["auto", "exact", "box"].map(|name| name.parse().unwrap()).to_vec(),
+            exclude: vec!["method=indi-persp-4,assign=scatter".parse().unwrap()],
+            ..Config::default()
+        };
+        let named = &planned_runs(&config)[0];
+        let (runs, dropped) = candidates(named, &config);
+        // Sizes 16, 12, 8, 6 and 4; boxes serve none of them, and of the last scatter is ruled out.
+        assert_eq!((runs.len(), dropped), (5 * 4 - 2, 5 * 2 + 2));
+        assert_eq!(chain(&runs[0]), chain(&runs[4]));
+        assert_ne!(chain(&runs[0]), chain(&runs[1]));
+    }
+}

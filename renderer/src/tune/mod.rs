@@ -1,0 +1,149 @@
+//! Which sizes, ways of assignment and tests make methods fastest: searched by successive halving.
+//!
+//! ```text
+//! config ─> a search a scene, lighting and method ─> winners ─┬─> timed with the named methods, in turn ─> table
+//!             candidates (sizes x ways x tests)               └─> configuration that replays them alone
+//!             └─> rungs ─> the last few ─> decision
+//! ```
+//!
+//! The sizes of the thesis were judged by eye from curves (Gelderen section 6.2). They depend on the scene, the lights, the
+//! resolution, the device, and on how dear clusters are: with fast assignment smaller ones win.
+
+mod halving;
+mod ladder;
+mod search;
+mod table;
+mod timer;
+mod written;
+
+pub use table::{Row, Tuning};
+
+use crate::config::{Assign, Config, Runs, Test};
+use crate::geometry::SphereTest;
+use crate::inputs::Inputs;
+use crate::output::PlannedRun;
+use crate::sweep::{Part, parts};
+use crate::{Error, Result, recording};
+use search::{Found, Problem};
+use std::sync::atomic::AtomicBool;
+use timer::{Effort, Timer};
+
+/// The user's side of a search.
+pub trait Audience {
+    /// This is under way.
+    fn say(&self, what: &str);
+    /// So many more frames will be rendered at most.
+    fn more(&self, frames: u64);
+    /// One of them was.
+    fn advance(&self);
+    /// So many of them need not be.
+    fn skip(&self, frames: u64);
+    /// Good to know.
+    fn note(&self, text: &str);
+}
+
+/// The defaults of a search: those of a replay, but with every way of assignment, tests of three costs, and as many
+/// temporal runs as it takes.
+pub fn defaults() -> Config {
+    Config {
+        assign: vec![Assign::Brute, Assign::Hierarchy, Assign::Scatter],
+        test: vec![
+            Test::Auto,
+            Test::Named(SphereTest::Exact),
+            Test::Named(SphereTest::HALF_SPACES_AND_NEAREST),
+        ],
+        runs: Runs::Auto,
+        ..Config::default()
+    }
+}
+
+/// Searches for every method of `config` under every lighting of every scene. What is found comes with the configuration
+/// that replays it.
+///
+/// # Errors
+/// Bad input, a device that lacks something, a method that cannot be played as named, a validation message, an
+/// interruption: nothing is found then.
+pub fn tune(config: &Config, interrupt: &AtomicBool, audience: &dyn Audience) -> Result<(Tuning, Config)> {
+    check(config)?;
+    let named = Config { assign: vec![Assign::Auto], test: vec![Test::Auto], ..config.clone() };
+    let (mut rows, mut chosen) = (vec![], vec![]);
+    for part in parts(&named)? {
+        let (mut of_part, mut runs) = tune_part(config, &part, interrupt, audience)?;
+        rows.append(&mut of_part);
+        chosen.append(&mut runs);
+    }
+    Ok((Tuning { rows }, written::configuration(config, &chosen)))
+}
+
+/// Refuses what times nothing, or what no rule of the configuration that is written could tell apart.
+fn check(config: &Config) -> Result<()> {
+    if config.runs.is_none() {
+        return Err(Error::input("runs: nothing is timed in 0 runs: give --runs auto, or 1 or more"));
+    }
+    let counts: Vec<u32> = config.lights.iter().map(|lighting| lighting.count).collect();
+    match counts.iter().enumerate().find(|(place, count)| counts[..*place].contains(count)) {
+        Some((_, count)) => Err(Error::Input(format!(
+            "lights: two lightings of {count} lights cannot be told apart in the configuration that is written: tune one \
+             after the other"
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// Searches in one scene.
+fn tune_part(
+    config: &Config,
+    part: &Part,
+    interrupt: &AtomicBool,
+    audience: &dyn Audience,
+) -> Result<(Vec<Row>, Vec<Config>)> {
+    // Ways and tests that are tried, and rules, are those of the whole.
+    let Config { assign, test, exclude, .. } = config.clone();
+    let scene = Config { assign, test, exclude, ..part.config.clone() };
+    let recording = recording::load(&scene.recording)?;
+    let frames = scene.frame_numbers(recording.frame_count())?;
+    let inputs = Inputs::load_with(&scene, recording, None)?;
+    inputs.rain_note().into_iter().for_each(|note| audience.note(&note));
+    // Whatever is asked for, times decide.
+    let opened = Config { runs: Runs::Auto, ..scene.clone() };
+    let mut timer = Timer::new((&opened, &inputs), (interrupt, audience))?;
+    let (mut rows, mut chosen) = (vec![], vec![]);
+    for runs in part.runs.chunk_by(|a, b| a.lights == b.lights) {
+        let mut found: Vec<Found> = vec![];
+        for run in methods(runs) {
+            audience.say(&format!("{} {}", run.method, run.lights));
+            let problem = Problem { config: &scene, of: &run.config, frames: &frames };
+            found.push(problem.solve(&mut timer)?);
+        }
+        chosen.extend(found.iter().map(|found| found.best.config.clone()));
+        audience.say(&format!("the winners, {}", runs[0].lights));
+        let effort = Effort::whole(&scene, &frames);
+        rows.extend(
+            compare(&mut timer, &found, &effort)?.into_iter().map(|row| row.of_scene(&part.directory)),
+        );
+    }
+    timer.finish()?;
+    Ok((rows, chosen))
+}
+
+/// One run of each method.
+fn methods(runs: &[PlannedRun]) -> Vec<&PlannedRun> {
+    let is_first = |place: usize| runs[..place].iter().all(|other| other.method != runs[place].method);
+    (0..runs.len()).filter(|&place| is_first(place)).map(|place| &runs[place]).collect()
+}
+
+/// Times what was found with what was named, all in turn where they fit side by side, and else each by itself.
+fn compare(timer: &mut Timer, found: &[Found], effort: &Effort) -> Result<Vec<Row>> {
+    let all: Vec<PlannedRun> = found.iter().flat_map(Found::compared).cloned().collect();
+    let together = timer.fit(&all.iter().collect::<Vec<_>>(), effort)?;
+    let mut rows = vec![];
+    for found in found.chunks(if together { found.len() } else { 1 }) {
+        let all: Vec<PlannedRun> = found.iter().flat_map(Found::compared).cloned().collect();
+        let mut times = timer.time(&all.iter().collect::<Vec<_>>(), effort)?.into_iter();
+        for found in found {
+            let pair: Vec<_> = times.by_ref().take(found.compared().len()).collect();
+            rows.push(Row::new(found, &pair, effort.count));
+        }
+    }
+    Ok(rows)
+}
