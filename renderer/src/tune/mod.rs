@@ -22,6 +22,7 @@ use crate::config::{Assign, Config, Runs, Test};
 use crate::geometry::SphereTest;
 use crate::inputs::Inputs;
 use crate::output::PlannedRun;
+use crate::stats::Samples;
 use crate::sweep::{Part, parts};
 use crate::{Error, Result, recording};
 use search::{Found, Problem};
@@ -43,7 +44,7 @@ pub trait Audience {
 }
 
 /// The defaults of a search: those of a replay, but with every way of assignment, tests of three costs, and as many
-/// temporal runs as it takes.
+/// temporal runs as it takes, up to fewer than a replay makes: a search times dozens of candidates.
 pub fn defaults() -> Config {
     Config {
         assign: vec![Assign::Brute, Assign::Hierarchy, Assign::Scatter],
@@ -53,6 +54,7 @@ pub fn defaults() -> Config {
             Test::Named(SphereTest::HALF_SPACES_AND_NEAREST),
         ],
         runs: Runs::Auto,
+        max_runs: 20,
         ..Config::default()
     }
 }
@@ -115,12 +117,12 @@ fn tune_part(
             let problem = Problem { config: &scene, of: &run.config, frames: &frames };
             found.push(problem.solve(&mut timer)?);
         }
-        chosen.extend(found.iter().map(|found| found.best.config.clone()));
         audience.say(&format!("the winners, {}", runs[0].lights));
         let effort = Effort::whole(&scene, &frames);
-        rows.extend(
-            compare(&mut timer, &found, &effort)?.into_iter().map(|row| row.of_scene(&part.directory)),
-        );
+        for (found, times) in compared(&mut timer, found, &effort)? {
+            rows.push(Row::new(&found, &times, frames.len()).of_scene(&part.directory));
+            chosen.push(found.best.config);
+        }
     }
     timer.finish()?;
     Ok((rows, chosen))
@@ -132,18 +134,24 @@ fn methods(runs: &[PlannedRun]) -> Vec<&PlannedRun> {
     (0..runs.len()).filter(|&place| is_first(place)).map(|place| &runs[place]).collect()
 }
 
-/// Times what was found with what was named, all in turn where they fit side by side, and else each by itself.
-fn compare(timer: &mut Timer, found: &[Found], effort: &Effort) -> Result<Vec<Row>> {
-    let all: Vec<PlannedRun> = found.iter().flat_map(Found::compared).cloned().collect();
-    let together = timer.fit(&all.iter().collect::<Vec<_>>(), effort)?;
-    let mut rows = vec![];
+/// What was found with the times of what was named and of what is best, all in turn where they fit side by side, and else
+/// each pair by itself. Where the method as named comes out faster after all, it is the best.
+fn compared(
+    timer: &mut Timer,
+    found: Vec<Found>,
+    effort: &Effort,
+) -> Result<Vec<(Found, Vec<Option<Samples>>)>> {
+    let all: Vec<&PlannedRun> = found.iter().flat_map(Found::compared).collect();
+    let together = timer.fit(&all, effort)?;
+    let mut times = vec![];
     for found in found.chunks(if together { found.len() } else { 1 }) {
-        let all: Vec<PlannedRun> = found.iter().flat_map(Found::compared).cloned().collect();
-        let mut times = timer.time(&all.iter().collect::<Vec<_>>(), effort)?.into_iter();
-        for found in found {
-            let pair: Vec<_> = times.by_ref().take(found.compared().len()).collect();
-            rows.push(Row::new(found, &pair, effort.count));
-        }
+        let all: Vec<&PlannedRun> = found.iter().flat_map(Found::compared).collect();
+        times.extend(timer.time(&all, effort)?);
     }
-    Ok(rows)
+    let mut times = times.into_iter();
+    let pair = |found: Found| {
+        let pair: Vec<_> = times.by_ref().take(found.compared().len()).collect();
+        found.settled(pair)
+    };
+    Ok(found.into_iter().map(pair).collect())
 }

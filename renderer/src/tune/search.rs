@@ -42,6 +42,18 @@ impl Found {
     pub fn compared(&self) -> Vec<&PlannedRun> {
         if same(&self.named, &self.best) { vec![&self.named] } else { vec![&self.named, &self.best] }
     }
+
+    /// What is left of it by the times of [`Self::compared`], with those of what is left.
+    pub fn settled(self, mut times: Vec<Option<Samples>>) -> (Self, Vec<Option<Samples>>) {
+        let value = |times: &Option<Samples>| times.as_ref().map(|samples| samples.measure().value);
+        let slower = matches!((times.first().map(value), times.get(1).map(value)), (Some(Some(named)), Some(Some(best))) if best >= named);
+        if !slower {
+            return (self, times);
+        }
+        times.truncate(1);
+        let settled = Self { best: self.named.clone(), runner_up: Some(self.best), undecided: true, ..self };
+        (settled, times)
+    }
 }
 
 impl Problem<'_> {
@@ -153,5 +165,31 @@ impl Candidates<'_> {
         let times = timer.time(&runs, &effort)?;
         let measured: Vec<_> = times.iter().map(|times| times.as_ref().map(Samples::measure)).collect();
         Ok(decide(&measured).unwrap_or(alone))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_faster_than_the_method_as_named_is_not_the_best() {
+        let methods = ["indi-persp-64", "indi-persp-8"].map(|name| name.parse().unwrap());
+        let runs = planned_runs(&Config { methods: methods.to_vec(), ..Config::default() });
+        let found = || Found {
+            named: runs[0].clone(),
+            best: runs[1].clone(),
+            runner_up: None,
+            undecided: false,
+            tried: 2,
+            left_out: 0,
+            given_up: 0,
+        };
+        let times = |best: f64| [2.0, best].map(|ms| Samples::new(1, vec![vec![ms]])).to_vec();
+        let (kept, pair) = found().settled(times(1.0));
+        assert_eq!((kept.best.name.as_str(), pair.len(), kept.undecided), ("indi-persp-8", 2, false));
+        let (settled, pair) = found().settled(times(3.0));
+        assert_eq!((settled.best.name.as_str(), pair.len(), settled.undecided), ("indi-persp-64", 1, true));
+        assert_eq!(settled.runner_up.unwrap().name, "indi-persp-8");
     }
 }
