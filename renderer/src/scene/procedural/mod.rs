@@ -5,6 +5,7 @@
 //! `bistro` and `suntem` recordings fly through their free space. Generation uses no platform's
 //! trigonometry and a portable random generator: the same bytes on every machine.
 
+mod architecture;
 mod builder;
 mod clearance;
 mod maths;
