@@ -10,10 +10,13 @@ fn devices_and_scenes_are_described() {
     let devices = succeed(manylight().args(["devices", "--json"]));
     let devices: serde_json::Value = serde_json::from_slice(&devices.stdout).unwrap();
     assert!(!devices.as_array().unwrap().is_empty(), "{devices}");
-    let scene = succeed(manylight().args(["scene", "street", "--json"]));
-    let scene: serde_json::Value = serde_json::from_slice(&scene.stdout).unwrap();
-    let triangles = scene["triangles"].as_u64().unwrap();
-    assert!((40_000..60_000).contains(&triangles), "{triangles} triangles");
+    for (name, least, most) in [("street", 40_000, 60_000), ("hall", 240_000, 260_000)] {
+        let scene = succeed(manylight().args(["scene", name, "--json"]));
+        let scene: serde_json::Value = serde_json::from_slice(&scene.stdout).unwrap();
+        assert_eq!(scene["name"], name);
+        let triangles = scene["triangles"].as_u64().unwrap();
+        assert!((least..most).contains(&triangles), "{name}: {triangles} triangles");
+    }
 }
 
 #[test]

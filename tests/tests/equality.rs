@@ -79,6 +79,19 @@ fn stereo_with_four_samples() {
     check("bistro-vive", 4, Marking::Depth);
 }
 
+/// An interior: columns before columns, cloths, panes of glass and lights that reach a few metres.
+#[test]
+fn stereo_in_the_hall() {
+    check_runs(Config {
+        scene: "hall".to_owned(),
+        methods: methods(&["all-lights", "indi-persp-64", "encl-ortho-4", "encl-displ-64-32"]),
+        lights: vec![Lighting { count: 400, intensity: 2.0, cutoff: 0.5, r0: 0.1 }],
+        frames: FrameRange { first: 300, end: Some(831), step: 530 },
+        clusters: vec![Clusters::Visible],
+        ..config("hall-vive", 4, Marking::Depth)
+    });
+}
+
 /// What is listed where all clusters get lists has the lists of the visible ones among them, light by light.
 #[test]
 fn visible_clusters_have_the_same_lists_among_all() {

@@ -14,7 +14,7 @@ use std::str::FromStr;
     expecting = "an object with a scene and a recording, and maybe resolution and frames"
 )]
 pub(super) struct RawSceneEntry {
-    /// Scene: `street`, `temple`, or the path of a .gltf, .glb or .obj file.
+    /// Scene: `street`, `temple`, `hall`, or the path of a .gltf, .glb or .obj file.
     #[schemars(length(min = 1))]
     scene: String,
     /// Recording: a bundled name, or the path of a JSON file.

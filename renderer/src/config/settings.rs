@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 settings! {
-    /// Scene: `street`, `temple`, or the path of a .gltf, .glb or .obj file.
+    /// Scene: `street`, `temple`, `hall`, or the path of a .gltf, .glb or .obj file.
     scene: String = "street".into(), Run {
         arg(long, value_name = "NAME|PATH")
         serde(default, deserialize_with = "de::text")
@@ -28,7 +28,8 @@ settings! {
     strict: bool = false, Outside {
         arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")
     }
-    /// Recording: `bistro`, `suntem`, `bistro-vive`, `bistro-mirror`, `suntem-vive`, or the path of a JSON file.
+    /// Recording: `bistro`, `suntem`, `hall`, `bistro-vive`, `bistro-mirror`, `suntem-vive`, `hall-vive`, or the path of a
+    /// JSON file.
     recording: String = "bistro-vive".into(), Run {
         arg(long, value_name = "NAME|PATH")
         serde(default, deserialize_with = "de::text")

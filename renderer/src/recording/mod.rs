@@ -65,12 +65,14 @@ use sha2::{Digest, Sha256};
 use std::path::Path;
 
 /// The recordings in the binary, by name.
-const BUNDLED: [(&str, &str); 5] = [
+const BUNDLED: [(&str, &str); 7] = [
     ("bistro", include_str!("../../../recordings/bistro.json")),
     ("suntem", include_str!("../../../recordings/suntem.json")),
+    ("hall", include_str!("../../../recordings/hall.json")),
     ("bistro-vive", include_str!("../../../recordings/bistro-vive.json")),
     ("bistro-mirror", include_str!("../../../recordings/bistro-mirror.json")),
     ("suntem-vive", include_str!("../../../recordings/suntem-vive.json")),
+    ("hall-vive", include_str!("../../../recordings/hall-vive.json")),
 ];
 
 /// The name of the one view of a recording without HMD.

@@ -32,9 +32,11 @@ fn bundled_recordings_load_and_play() {
     for (name, frames, views) in [
         ("bistro", 670, 1),
         ("suntem", 885, 1),
+        ("hall", 1200, 1),
         ("bistro-vive", 670, 2),
         ("bistro-mirror", 670, 3),
         ("suntem-vive", 885, 2),
+        ("hall-vive", 1200, 2),
     ] {
         let recording = load(name).unwrap();
         assert_eq!((recording.name(), recording.frame_count()), (name, frames));

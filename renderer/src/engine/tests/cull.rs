@@ -101,4 +101,5 @@ fn compare(scene: &str) {
 fn commands_equal_their_twin() {
     compare("street");
     compare("temple");
+    compare("hall");
 }

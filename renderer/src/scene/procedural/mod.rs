@@ -1,12 +1,15 @@
-//! Built-in scenes, generated in code: a Parisian street and a temple of the sun.
+//! Built-in scenes, generated in code: a Parisian street, a temple of the sun and a galleried hall.
 //!
-//! Both stand where the scenes of Gelderen's chapter 6 and appendix C stood (metres, +Y up, inside the rain
+//! Street and temple stand where the scenes of Gelderen's chapter 6 and appendix C stood (metres, +Y up, inside the rain
 //! box x -60..80, y -20..60, z -60..60 with a little of the temple's forecourt beyond it), so that the
-//! `bistro` and `suntem` recordings fly through their free space. Generation uses no platform's
+//! `bistro` and `suntem` recordings fly through their free space; the `hall` recording flies through the hall, which lies
+//! around the origin. Generation uses no platform's
 //! trigonometry and a portable random generator: the same bytes on every machine.
 
+mod architecture;
 mod builder;
 mod clearance;
+mod hall;
 mod maths;
 mod mesh;
 mod palette;
@@ -45,8 +48,8 @@ impl Size {
 }
 
 /// Every name that [`by_name`] knows.
-pub const NAMES: [&str; 6] =
-    ["street", "street-medium", "street-large", "temple", "temple-medium", "temple-large"];
+pub const NAMES: [&str; 7] =
+    ["street", "street-medium", "street-large", "temple", "temple-medium", "temple-large", "hall"];
 
 /// A street with facades, shops, trees and a café, which the `bistro` recording flies through.
 pub fn street(size: Size) -> Scene {
@@ -58,6 +61,12 @@ pub fn temple(size: Size) -> Scene {
     temple::build(size).finish(&format!("temple{}", size.suffix()))
 }
 
+/// A hall with aisles, two storeys of galleries and a vault, of about 250 thousand triangles: an interior such as papers
+/// on many lights measure in, for the `hall` recording.
+pub fn hall() -> Scene {
+    hall::build().finish("hall")
+}
+
 /// The built-in scene of that name (one of [`NAMES`]), if there is one.
 pub fn by_name(name: &str) -> Option<Scene> {
     Some(match name {
@@ -67,6 +76,7 @@ pub fn by_name(name: &str) -> Option<Scene> {
         "temple" => temple(Size::Small),
         "temple-medium" => temple(Size::Medium),
         "temple-large" => temple(Size::Large),
+        "hall" => hall(),
         _ => return None,
     })
 }

@@ -86,6 +86,20 @@ pub(super) enum Surface {
     StainedGlass,
     /// Pools.
     Water,
+    /// The hall's floor.
+    Chequers,
+    /// Red columns.
+    Porphyry,
+    /// Red drapes.
+    Crimson,
+    /// Green drapes.
+    Teal,
+    /// Yellow drapes.
+    Ochre,
+    /// Thin cloths across the hall.
+    Veil,
+    /// Vases.
+    Glaze,
 }
 
 /// How a surface looks.
@@ -188,6 +202,13 @@ impl Surface {
             Self::Screen => Look::new(Pattern::Lattice, 1.0, WHITE).masked(),
             Self::StainedGlass => Look::new(Pattern::Stained, 1.0, WHITE).blended().thin(),
             Self::Water => Look::new(Pattern::Water, 5.0, WHITE).blended(),
+            Self::Chequers => Look::new(Pattern::Chequers, 2.5, WHITE),
+            Self::Porphyry => Look::new(Pattern::Marble, 1.6, [0.52, 0.17, 0.13]).metal(0.0, 0.8),
+            Self::Crimson => Look::new(Pattern::Damask, 0.9, [0.62, 0.05, 0.05]).thin(),
+            Self::Teal => Look::new(Pattern::Damask, 0.9, [0.04, 0.30, 0.28]).thin(),
+            Self::Ochre => Look::new(Pattern::Damask, 0.9, [0.72, 0.42, 0.08]).thin(),
+            Self::Veil => Look::new(Pattern::Gauze, 1.2, [0.95, 0.88, 0.78]).blended().thin(),
+            Self::Glaze => Look::new(Pattern::Porcelain, 0.8, WHITE),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The textures, as functions of a point of their tile.
 
+mod cloth;
 mod cutout;
 mod masonry;
 mod plain;
@@ -63,6 +64,14 @@ pub(super) enum Pattern {
     Meadow,
     /// A pierced stone screen, cut out.
     Lattice,
+    /// Dark and light polished tiles, cornerwise.
+    Chequers,
+    /// Woven cloth with a raised motif.
+    Damask,
+    /// A thin weave that lets light through.
+    Gauze,
+    /// White glaze with blue bands.
+    Porcelain,
 }
 
 impl Pattern {
@@ -100,6 +109,10 @@ impl Pattern {
             Self::Embers => plain::embers,
             Self::Meadow => plain::meadow,
             Self::Lattice => cutout::lattice,
+            Self::Chequers => masonry::chequers,
+            Self::Damask => cloth::damask,
+            Self::Gauze => cloth::gauze,
+            Self::Porcelain => plain::porcelain,
         }
     }
 }

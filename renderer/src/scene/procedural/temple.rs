@@ -15,8 +15,9 @@ mod things;
 
 use glam::Vec3;
 
+use super::architecture::column;
 use super::builder::{Builder, Model};
-use super::maths::{Place, noise, smoothstep};
+use super::maths::{Place, noise};
 use super::mesh::{Chunk, Mesh};
 use super::palette::Surface;
 use super::{Detail, Size, props};
@@ -79,8 +80,8 @@ impl<'a> Site<'a> {
     fn new(detail: &'a Detail) -> Self {
         let mut builder = Builder::default();
         let models = Models {
-            tall: builder.model(architecture::column(detail, COLUMN, 0.62)),
-            low: builder.model(architecture::column(detail, 4.2, 0.34)),
+            tall: builder.model(column(detail, COLUMN, 0.62)),
+            low: builder.model(column(detail, 4.2, 0.34)),
             brazier: builder.model(things::brazier(detail)),
             statue: builder.model(things::statue(detail)),
             cypress: [31, 32].map(|seed| builder.model(props::cypress(detail, seed))),
@@ -144,12 +145,6 @@ fn floor(low: [f32; 2], high: [f32; 2], y: f32, surface: Surface, detail: &Detai
         }
     }
     tiles
-}
-
-/// Courses of ashlar whose joints are drawn in.
-fn courses([_, v]: [f32; 2]) -> f32 {
-    let course = v * 7.0 / 4.0;
-    -0.02 * smoothstep(0.36, 0.5, (course - course.floor() - 0.5).abs())
 }
 
 /// Steps from `high` (y, z of the upper edge) down to `low`, between two x.

@@ -127,3 +127,24 @@ pub(super) fn stained(u: f32, v: f32) -> Texel {
     let color = blend(shade(color, 0.8 + 0.35 * swirl), [0.06, 0.06, 0.07], lead);
     Texel::new(color, mix(0.08, 0.5, lead)).raised(0.004 * lead + 0.002 * swirl).covering(mix(0.5, 1.0, lead))
 }
+
+/// Tiles stand on their corners; the tile of the texture has two across its diagonals.
+pub(super) fn chequers(u: f32, v: f32) -> Texel {
+    const ACROSS: i32 = 4;
+    let (a, b) = ((u + v) * ACROSS as f32 * 0.5, (u - v + 1.0) * ACROSS as f32 * 0.5);
+    let (column, row) = (a.floor() as i32, b.floor() as i32);
+    let gap = |x: f32| (x - x.floor()).min(x.ceil() - x);
+    let body = smoothstep(0.008, 0.03, gap(a).min(gap(b)));
+    let grain = fractal(u, v, 8, 5, 411);
+    let vein = 1.0 - smoothstep(0.0, 0.05, (fractal(u, v, 4, 4, 415) - 0.5).abs());
+    let dark = (column + row) % 2 == 0;
+    let [stone, veined] = if dark {
+        [[0.16, 0.13, 0.12], [0.36, 0.32, 0.28]]
+    } else {
+        [[0.82, 0.78, 0.70], [0.62, 0.56, 0.48]]
+    };
+    // Neighbouring tiles of the texture are one tile of stone, so the tone depends on the remainder alone.
+    let tone = 0.9 + 0.16 * hash(column.rem_euclid(ACROSS / 2), row.rem_euclid(ACROSS / 2), 413);
+    let color = blend([0.30, 0.27, 0.24], shade(blend(stone, veined, 0.6 * vein), tone), body);
+    Texel::new(color, mix(0.8, 0.24 + 0.18 * grain, body)).raised(0.0025 * body)
+}

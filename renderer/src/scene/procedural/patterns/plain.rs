@@ -103,3 +103,10 @@ pub(super) fn meadow(u: f32, v: f32) -> Texel {
     let bare = 0.55 * smoothstep(0.45, 0.75, patch);
     Texel::new(blend(grass, earth, bare), 0.95).raised(0.01 * blades + 0.01 * patch)
 }
+
+pub(super) fn porcelain(u: f32, v: f32) -> Texel {
+    let (swirl, ink) = (fractal(u, v, 6, 3, 441), fractal(u, v, 12, 3, 445));
+    let figure = smoothstep(0.0, 0.04, (swirl - 0.5).abs() - 0.035);
+    let color = blend([0.12, 0.20, 0.48], [0.90, 0.90, 0.86], figure);
+    Texel::new(shade(color, 0.92 + 0.12 * ink), 0.12 + 0.08 * ink)
+}

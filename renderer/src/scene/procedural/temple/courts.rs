@@ -2,11 +2,11 @@
 
 use glam::Vec3;
 
+use super::super::architecture::{courses, entablature};
 use super::super::maths::{Dice, Place};
 use super::super::mesh::{Chunk, Mesh};
 use super::super::palette::Surface;
-use super::architecture::entablature;
-use super::{COLUMN, FLOOR, HIGH_FLOOR, Site, courses, floor, stairs, things};
+use super::{COLUMN, FLOOR, HIGH_FLOOR, Site, floor, stairs, things};
 
 /// Height of the small columns of courts.
 const LOW_COLUMN: f32 = 4.2;

@@ -2,10 +2,11 @@
 
 use glam::Vec3;
 
+use super::super::architecture::{Arch, entablature};
 use super::super::maths::{Place, mix, sin_cos};
 use super::super::mesh::{Chunk, Mesh};
 use super::super::palette::Surface;
-use super::architecture::{Arch, entablature, vault_bay};
+use super::architecture::vault_bay;
 use super::{BAY, COLUMN, FLOOR, HIGH_FLOOR, ROW, Site, WALL, floor, stairs, things};
 
 /// Bays of each hall.
@@ -35,8 +36,8 @@ impl Site<'_> {
             self.builder.place(&vault, &place);
         }
         self.nave_roof();
-        self.cross_wall(GATE, FLOOR, Arch { half: 3.4, spring: 4.6 });
-        self.cross_wall(CHANCEL, FLOOR, Arch { half: 4.4, spring: 4.2 });
+        self.cross_wall(GATE, FLOOR, Arch { half: 3.4, spring: 4.6, band: 0.5 });
+        self.cross_wall(CHANCEL, FLOOR, Arch { half: 4.4, spring: 4.2, band: 0.5 });
         self.add(stairs([-5.0, 5.0], [HIGH_FLOOR, 16.8], [FLOOR, 20.2], detail));
         self.add(things::pool([-1.7, 26.0], [1.7, 40.0], FLOOR, detail));
         for z in [25.0, 41.0] {
@@ -135,7 +136,7 @@ impl Site<'_> {
             self.add(tile);
         }
         self.arcades(CHANCEL - 0.4, HIGH_FLOOR, aisle_terrace);
-        self.cross_wall(END, HIGH_FLOOR, Arch { half: 4.0, spring: 4.6 });
+        self.cross_wall(END, HIGH_FLOOR, Arch { half: 4.0, spring: 4.6, band: 0.5 });
         self.dome(Vec3::new(0.0, HIGH_FLOOR + WALL_HEIGHT, -1.0));
         let mut plinth = Chunk::default();
         let steps = [
