@@ -5,7 +5,7 @@
 //! lights whose cells hold nothing visible; what is left, the candidates, the hierarchy puts into a tree, built anew each
 //! frame, down which each visible cluster goes, and scatter hands out to groups of visible clusters.
 
-use crate::gpu_interface::{ASSIGN_WORKGROUP, BLOCK_COLUMNS, SORT_BITS, TREE_WIDTH};
+use crate::gpu_interface::{ASSIGN_WORKGROUP, BLOCK_COLUMNS, LIGHT_BLOCK, SORT_BITS, TREE_WIDTH};
 use crate::nearest;
 use clap::ValueEnum;
 use schemars::JsonSchema;
@@ -142,6 +142,11 @@ pub fn group_capacity(lights: u32, groups: u64) -> u64 {
     let packet = u64::from(ASSIGN_WORKGROUP);
     let most = groups * u64::from(lights).next_multiple_of(packet);
     most.min((4 * u64::from(lights)).max(MIN_GROUP_CAPACITY)).next_multiple_of(packet)
+}
+
+/// Workgroups that cull lights: one even where there are none, which says so.
+pub fn light_blocks(lights: u32) -> u32 {
+    lights.div_ceil(LIGHT_BLOCK).max(1)
 }
 
 /// Clusters of a block, along each axis: a block's column has a word, and a block along z a bit.

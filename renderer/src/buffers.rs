@@ -175,10 +175,10 @@ buffers! {
         .storage("uint block_bits[]")
         .texels("block", Element::Word)
         .sized(|s| bytes::<u32>(s.for_culled_lights(BLOCK_WORDS.into())));
-    /// Lights that may meet a visible cluster, a bit each; behind them, how many there are before each word.
+    /// Lights that may meet a visible cluster, a bit each; behind them, how many each block of lights has.
     LightBits = buffer("light_bits", Owner::Clustering)
         .storage("uint light_bits[]")
-        .sized(|s| bytes::<u32>(2 * s.culled_light_words()));
+        .sized(|s| bytes::<u32>(s.culled_light_words()));
     /// Lights that may meet a visible cluster, ascending.
     Candidates = buffer("candidates", Owner::Clustering)
         .storage("Candidate candidates[]")

@@ -29,6 +29,8 @@ pub const SCAN_WORKGROUP: u32 = 256;
 pub const SCAN_BLOCK: u32 = 1024;
 /// Threads of a workgroup of the assignment passes; visible clusters of a group, lights of a packet.
 pub const ASSIGN_WORKGROUP: u32 = 64;
+/// Lights that a workgroup of their culling takes: a word of bits a thread.
+pub const LIGHT_BLOCK: u32 = 32 * ASSIGN_WORKGROUP;
 /// Threads of a workgroup of culling.
 pub const CULL_WORKGROUP: u32 = 64;
 /// Packets of lights along x of a dispatch; more go along y.
@@ -85,7 +87,7 @@ pub const MEASUREMENT_WORDS: u64 = 4096;
 /// How many 64-bit counters the atemporal run has: as many as [`DeviceCounts`] has fields.
 pub const COUNTER_COUNT: usize = DeviceCounts::NAMES.len();
 
-const CONSTANTS: [(&str, u32); 28] = [
+const CONSTANTS: [(&str, u32); 29] = [
     ("SET_BUFFERS", SET_BUFFERS),
     ("SET_MATERIAL", SET_MATERIAL),
     ("SET_DEPTH", SET_DEPTH),
@@ -93,6 +95,7 @@ const CONSTANTS: [(&str, u32); 28] = [
     ("SCAN_WORKGROUP", SCAN_WORKGROUP),
     ("SCAN_BLOCK", SCAN_BLOCK),
     ("ASSIGN_WORKGROUP", ASSIGN_WORKGROUP),
+    ("LIGHT_BLOCK", LIGHT_BLOCK),
     ("PACKET_ROW", PACKET_ROW),
     ("LIST_ROW", LIST_ROW),
     ("BLOCK_COLUMNS", BLOCK_COLUMNS),
@@ -147,7 +150,7 @@ const STRUCTS: [StructInfo; 15] = [
 /// Names of what shader variants choose among; the value is the position.
 const VARIANT_NAMES: [&[&str]; 5] = [
     &["SPACE_PERSPECTIVE", "SPACE_ORTHOGRAPHIC"],
-    &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS", "SCAN_DIGITS", "SCAN_LIGHTS", "SCAN_GROUPS"],
+    &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS", "SCAN_DIGITS", "SCAN_GROUPS"],
     &["ASSIGN_BRUTE", "ASSIGN_HIERARCHY", "ASSIGN_SCATTER"],
     &["CLUSTERS_VISIBLE", "CLUSTERS_ALL"],
     &["CULLING_CPU", "CULLING_GPU"],

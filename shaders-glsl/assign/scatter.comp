@@ -9,6 +9,19 @@ layout(local_size_x = ASSIGN_WORKGROUP) in;
 
 shared uint packet_numbers[ASSIGN_WORKGROUP];
 
+// Puts lights of the packet, a bit each from `first` on, on a list.
+void add_lights(uint visible, uint first, uint bits)
+{
+    for (; bits != 0u; bits &= bits - 1u) {
+        uint number = packet_numbers[first + uint(findLSB(bits))];
+#if WRITE_LISTS
+        add_light(visible, number);
+#else
+        mark_light(visible, number);
+#endif
+    }
+}
+
 void main()
 {
     uint thread = gl_LocalInvocationID.x;
@@ -33,10 +46,14 @@ void main()
     uvec2 met = lights_met(cell_of_visible(visible), there);
     if (visible >= state.visible)
         return;
-    for (uint half_packet = 0u; half_packet < 2u; ++half_packet)
-        for (uint bits = met[half_packet]; bits != 0u; bits &= bits - 1u)
-            add_light(visible, packet_numbers[half_packet * 32u + uint(findLSB(bits))]);
 #if !WRITE_LISTS
     count(COUNTER_INTERSECTION_TESTS, there);
+    // No other packet has these pairs: lengths grow by a packet's at once.
+    if (any(notEqual(met, uvec2(0u))))
+        atomicAdd(list_lengths[visible], uint(bitCount(met.x) + bitCount(met.y)));
+    if (state.masked == 0u)
+        return;
 #endif
+    add_lights(visible, 0u, met.x);
+    add_lights(visible, 32u, met.y);
 }

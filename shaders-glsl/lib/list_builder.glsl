@@ -29,10 +29,16 @@ void add_light(uint visible, uint number)
 
 #else
 
+// Sets the bit of a light on a list.
+void mark_light(uint visible, uint number)
+{
+    atomicOr(light_masks[visible * state.mask_words + (number >> 5)], 1u << (number & 31u));
+}
+
 void add_light(uint visible, uint number)
 {
     if (state.masked != 0u)
-        atomicOr(light_masks[visible * state.mask_words + (number >> 5)], 1u << (number & 31u));
+        mark_light(visible, number);
     else
         atomicAdd(list_lengths[visible], 1u);
 }

@@ -19,33 +19,6 @@ void emit(uint word, uint rank)
 
 void publish(uint total) { publish_visible(total); }
 
-#elif SCAN_ITEMS == SCAN_LIGHTS
-
-uint scan_length() { return (grid.light_count + 31u) / 32u; }
-uint scan_item(uint i) { return uint(bitCount(light_bits[i])); }
-
-// Ranks the words: the candidates before each lie behind the bits.
-void emit(uint word, uint rank) { light_bits[scan_length() + word] = rank; }
-
-void publish(uint total)
-{
-    publish_lists(total, state.visible);
-#if ASSIGN == ASSIGN_HIERARCHY
-    uint blocks = (total + SORT_BLOCK - 1u) / SORT_BLOCK;
-    dispatches[DISPATCH_SORT] = groups_for(blocks, ASSIGN_WORKGROUP);
-    dispatches[DISPATCH_SORT_SCAN] = groups_for(blocks * SORT_DIGITS, SCAN_BLOCK);
-    uint nodes = total;
-    for (uint depth = grid.tree_depth - 1u; depth > 0u; --depth) {
-        nodes = (nodes + TREE_WIDTH - 1u) / TREE_WIDTH;
-        dispatches[DISPATCH_NODES + depth - 1u] = groups_for(nodes, ASSIGN_WORKGROUP);
-    }
-#else
-    DispatchSize to_groups = groups_for(total, ASSIGN_WORKGROUP);
-    to_groups.y = (dispatches[DISPATCH_LISTS].x + GROUP_CHUNK - 1u) / GROUP_CHUNK;
-    dispatches[DISPATCH_GROUPS] = to_groups;
-#endif
-}
-
 #elif SCAN_ITEMS == SCAN_DIGITS
 
 #include "lib/sort.glsl"

@@ -1,7 +1,7 @@
 //! Sizes of a clustering's buffers, and what a device must hold and dispatch for them: pure.
 
 use super::{BufferInfo, BufferName, Owner};
-use crate::assign::{self, Assigner, Clusters};
+use crate::assign::{self, Assigner, Clusters, light_blocks};
 use crate::gpu_interface::{ASSIGN_WORKGROUP, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS};
 use crate::measure::Capacities;
 use crate::vk::{Limits, texel_bytes};
@@ -62,9 +62,10 @@ impl ClusteringSizes {
         if self.assigner == Assigner::Brute { 0 } else { size }
     }
 
-    /// Words of a bit for each light that may be a candidate.
+    /// Words of a bit for each light that may be a candidate, and for each block of lights how many it has.
     pub(super) fn culled_light_words(&self) -> u64 {
-        self.for_culled_lights(self.lights.into()).div_ceil(32)
+        self.for_culled_lights(self.lights.div_ceil(32).into())
+            + self.for_culled_lights(light_blocks(self.lights).into())
     }
 
     /// Lights in the hierarchy.
@@ -109,7 +110,7 @@ impl ClusteringSizes {
 
     /// Items of the longest prefix sum.
     fn scan_items(&self) -> u64 {
-        self.words().max(self.visible()).max(self.digit_counts()).max(self.culled_light_words())
+        self.words().max(self.visible()).max(self.digit_counts())
     }
 
     /// What the buffers of a clustering take, bytes, where so many frames are in flight.

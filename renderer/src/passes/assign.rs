@@ -45,8 +45,8 @@ pub fn count_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
         }
         let writes = set(&[B::LightMasks, B::ListLengths, B::Counters]);
         meet(r, frame, visible, (&pipelines.meet[0], DISPATCH_MEET), (reads, writes));
-        // Brute force writes whole words of bits, and counts as it does.
-        if frame.assigner != Assigner::Brute {
+        // The others count a packet's lights as they set their bits.
+        if frame.assigner == Assigner::Hierarchy {
             let (reads, writes) = (set(&[B::State, B::LightMasks]), set(&[B::ListLengths]));
             indirect(r, frame, visible, (&pipelines.read_masks[0], DISPATCH_MASKED), (reads, writes));
         }

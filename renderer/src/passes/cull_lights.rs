@@ -2,15 +2,15 @@
 //!
 //! ```text
 //! visible_clusters ──mark_blocks──> block_bits ─┐
-//! lights ───────────────────────────────────────┴─cull_lights──> light_bits ──scan──> ranks
-//! ranks, lights ──list_candidates──> candidates, light_volumes
+//! lights ───────────────────────────────────────┴─cull_lights──> light_bits, their number by block of lights
+//! light_bits, lights ──list_candidates──> candidates, light_volumes, their number
 //! ```
 
 use super::handles::{Lights, VisibleClusters};
 use super::inputs::Frame;
-use super::scan::rank_lights;
+use crate::assign::light_blocks;
 use crate::buffers::{BufferName as B, set};
-use crate::gpu_interface::{ASSIGN_WORKGROUP, DISPATCH_LISTS};
+use crate::gpu_interface::DISPATCH_LISTS;
 use crate::pass::{Dispatch, Recorder, Size};
 
 /// Drops the lights whose cells hold nothing visible.
@@ -21,16 +21,14 @@ pub fn cull_lights(r: &mut Recorder, frame: &Frame, _lights: Lights, visible: Vi
         let run = |r: &mut Recorder, pipeline, size, declared| {
             r.dispatch(&Dispatch::new(pipeline, frame.buffers(clustering), size, declared));
         };
-        // A thread for each word of light bits.
-        let words = Size::threads(frame.light_count.div_ceil(32), ASSIGN_WORKGROUP);
+        let by_block = Size::Workgroups(light_blocks(frame.light_count), 1);
         let (lights, blocks, bits) = (set(&[B::Lights]), set(&[B::BlockBits]), set(&[B::LightBits]));
         r.clear(&frame.clusterings[clustering].buffers[B::BlockBits]);
         let clusters = set(&[B::State, B::VisibleClusters]);
         let marked = blocks | set(&[B::Groups]);
         run(r, &pipelines.mark_blocks, Size::Indirect(DISPATCH_LISTS), (clusters, marked));
-        run(r, &pipelines.cull_lights, words, (lights | blocks, bits));
-        rank_lights(r, frame, visible);
-        let candidates = set(&[B::LightVolumes, B::Candidates]);
-        run(r, &pipelines.list_candidates, words, (lights | bits, candidates));
+        run(r, &pipelines.cull_lights, by_block, (lights | blocks, bits));
+        let candidates = set(&[B::LightVolumes, B::Candidates, B::State, B::Dispatches]);
+        run(r, &pipelines.list_candidates, by_block, (lights | bits, candidates));
     });
 }

@@ -1,5 +1,5 @@
 //! The one prefix sum: stages `compact` (over the visibility words) and `light_offsets` (over the lengths of the lists),
-//! and parts of others (over the words of light bits, the digits of the sort, the packets of scatter's groups).
+//! and parts of others (over the digits of the sort, the packets of scatter's groups).
 //!
 //! ```text
 //! items ──reduce──> block_sums ──block_offsets──> block_sums, total ──apply──> exclusive prefix per item
@@ -70,22 +70,6 @@ pub fn light_offsets(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) 
         };
         record(r, frame, clustering, &scan);
     });
-}
-
-/// Ranks the words of light bits.
-pub(super) fn rank_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
-    let clustering = visible.clustering;
-    let scan = Scan {
-        pipelines: &frame.pipelines.accelerated().rank_lights,
-        items: frame.light_count.div_ceil(32),
-        size: None,
-        length: BufferSet::EMPTY,
-        summed: set(&[B::LightBits]),
-        emits: set(&[B::LightBits]),
-        publishes: set(&[B::State, B::Dispatches]),
-        push: Push::default(),
-    };
-    record(r, frame, clustering, &scan);
 }
 
 /// Gives groups of visible clusters the packets that their lights fill.

@@ -109,8 +109,6 @@ pipelines! {
         mark_blocks: Arc<Pipeline> = make.lists("cull/mark_blocks.comp");
         /// A bit for each light that may meet a visible cluster: a candidate.
         cull_lights: Arc<Pipeline> = make.tests("cull/cull_lights.comp");
-        /// Prefix sum of the bits of candidates.
-        rank_lights: ScanPipelines = make.scan("SCAN_LIGHTS");
         /// Lists the candidates.
         list_candidates: Arc<Pipeline> = make.tests("cull/list_candidates.comp");
         /// Counts the candidates of each group of visible clusters, and lists them.
