@@ -2,7 +2,7 @@
 
 mod host_data;
 
-pub use host_data::{grid_data, gridless_data, view_data};
+pub use host_data::{grid_data, gridless_data, view_data, world_slack};
 
 use crate::buffers::{BUFFER_COUNT, BufferName, BufferSet, BufferView, ClusteringSizes, Owner, set};
 use crate::layouts::{BoundBuffers, DescriptorSets, Pipeline};

@@ -25,6 +25,8 @@ pub struct GpuScene {
     pub instances: Buffer,
     /// Origin of the frames that can be drawn now (see [`crate::origin`]), metres.
     pub origin: DVec3,
+    /// Lowest and highest corner of all geometry in the world, metres; `None` without any.
+    pub bounds: Option<(DVec3, DVec3)>,
     /// No instance reaches farther from `origin`, metres.
     pub reach: f64,
     placements: Vec<Placement>,
@@ -83,6 +85,7 @@ impl GpuScene {
                 &instances,
             )?,
             origin: DVec3::ZERO,
+            bounds: scene.bounds(),
             reach: reach(&placements, DVec3::ZERO),
             placements,
             drawables: Buffer::with_data(

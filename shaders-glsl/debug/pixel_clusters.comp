@@ -4,23 +4,14 @@
 // WORLD_LOOKUP 1: the camera only looks; the cluster is found by world position, and there may be none.
 #version 460
 #include "lib/sample_positions.glsl"
-#include "lookup/clustered.glsl"
+#include "lookup/$LOOKUP.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uint cluster_at(ViewData view, vec2 location, float depth)
 {
 #if WORLD_LOOKUP
-    vec4 world = view.world_from_view * vec4(view_position(view, location, depth), 1.0);
-    vec3 local = (grid.clustering_from_world * world).xyz;
-#if SPACE == SPACE_PERSPECTIVE
-    if (local.z >= 0.0)
-        return NO_CLUSTER;
-#endif
-    vec3 coordinates = cluster_coordinates(local);
-    if (any(lessThan(coordinates, vec3(0.0))) || any(greaterThan(coordinates, vec3(grid.dimensions))))
-        return NO_CLUSTER;
-    return linear_cluster(cell_of_position(local));
+    return group_at((view.world_from_view * vec4(view_position(view, location, depth), 1.0)).xyz);
 #else
     return cluster_of_sample(view, location, depth);
 #endif

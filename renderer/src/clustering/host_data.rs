@@ -32,6 +32,18 @@ fn slack(grid: &Grid, views: &[View], origin: DVec3, reach: f64) -> f32 {
     (SLACK_PER_METRE * reach as f32).max(beyond as f32)
 }
 
+/// What rounding may cost in a grid that does not depend on the views, metres, where no geometry is farther than `reach` metres
+/// from the frame's `origin`. `grid` is relative to that; `views` are in the world.
+///
+/// Each rounding is bounded by its worst, for what is shaded is anywhere in the scene. It is the same for all views nearer
+/// to the origin than the geometry's farthest, so that lists do not depend on them.
+pub fn world_slack(grid: &Grid, views: &[View], origin: DVec3, reach: f64) -> f32 {
+    let eyes = views.iter().map(|view| view.eye().distance(origin)).fold(reach, f64::max);
+    let (low, high) = grid.bounds();
+    let cells = grid.pose.transform_point(DVec3::ZERO).length() + low.abs().max(high.abs()).length();
+    (SLACK_PER_METRE_BEYOND * (reach + eyes + cells)) as f32
+}
+
 /// A grid as shaders read it: `grid` is relative to the frame's `origin`, `views`, which look lights up in it, are in the
 /// world.
 pub fn grid_data(

@@ -146,7 +146,7 @@ pub static AXES: [Axis; 7] = [
         column: "clusters",
         role: Role::Way,
         values: Values::Names,
-        applies: Method::has_lists,
+        applies: |method| method.has_lists() && !method.is_apart_from_views(),
         count: |config| config.clusters.len(),
         split: |config| {
             each(&config.clusters, |clusters| Config { clusters: vec![clusters], ..config.clone() })

@@ -11,7 +11,7 @@ use crate::culling::Culling;
 use crate::geometry::DisplacedVolume;
 use crate::lights::{Attenuation, GeneratorKind, LatticeBox, LightBox, LightMotion, LightSet, Lighting};
 use crate::measure::Order;
-use crate::methods::{KINDS, Method, Sharing, Space};
+use crate::methods::{GridBox, KINDS, Method, Sharing, Space};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -203,7 +203,8 @@ settings! {
         told("marking from")
     }
     /// Which clusters get light lists: `visible` (those that hold a fragment, which marking finds) or `all` of the grid, with
-    /// nothing marked. Of several, with commas between, each is a run of every method.
+    /// nothing marked; in world grids (method g) it is always all. Of several, with commas between, each is a run of every
+    /// other method.
     clusters: Vec<Clusters> = vec![Clusters::Visible], Run {
         arg(long, value_enum, value_name = "LIST", value_delimiter = ',')
         serde(default, deserialize_with = "de::ways")
@@ -230,6 +231,11 @@ settings! {
         schemars(schema_with = "schema::test")
         write(serialize_with = "ser::one_or_several")
         check(values::check_ways)
+    }
+    /// What a world grid (method g) is laid around: the centres of the frame's lights, or all geometry. Nothing is lost either
+    /// way.
+    grid_box: GridBox = GridBox::Lights, Counts {
+        arg(long, value_enum)
     }
     /// Which frustum sizes the clusters of Displ.
     displaced_volume: DisplacedVolume = DisplacedVolume::View, Counts {

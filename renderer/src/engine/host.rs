@@ -3,11 +3,13 @@
 use super::{Engine, FramePlan, Session};
 use crate::Result;
 use crate::buffers::BufferName;
-use crate::clustering::{grid_data, gridless_data, view_data};
+use crate::clustering::{grid_data, gridless_data, view_data, world_slack};
 use crate::culling::Culling;
 use crate::geometry::VolumeKind;
-use crate::gpu_interface::{DrawCounts, LightData};
+use crate::gpu_interface::{DrawCounts, GridData, LightData};
+use crate::gpu_scene::GpuScene;
 use crate::lights::{FrameLights, PointLight};
+use crate::methods::Surroundings;
 use glam::{DVec3, Vec3};
 
 impl Engine {
@@ -28,7 +30,7 @@ impl Engine {
             session.scene.move_origin(&session.context, origin)?;
         }
         for clustering in 0..self.clusterings.len() {
-            self.write_clustering(session, slot, plan, clustering, lights.list.len() as u32);
+            self.write_clustering(session, slot, plan, clustering, lights.list);
         }
         self.write_draws(session, slot, plan);
         self.write_lights(slot, lights, origin);
@@ -79,15 +81,22 @@ impl Engine {
         slot: usize,
         plan: &FramePlan,
         number: usize,
-        lights: u32,
+        lights: &[PointLight],
     ) {
         let clustering = &mut self.clusterings[number];
-        let origin = session.scene.origin;
-        let grid = plan.grids.get(number).map(|grid| grid.relative_to(origin));
+        let GpuScene { origin, reach, bounds, .. } = session.scene;
+        let around = Surroundings { lights, scene: bounds, grid_box: self.grid_box };
+        let placed = plan.grids.get(number).map(|grid| self.method.settled(grid, &around));
+        let grid = placed.map(|grid| grid.relative_to(origin));
         let views = &plan.views[clustering.views.clone()];
+        let count = lights.len() as u32;
         let data = match &grid {
-            Some(grid) => grid_data(grid, views, origin, lights, &self.sizes),
-            None => gridless_data(lights),
+            Some(grid) if self.method.is_apart_from_views() => GridData {
+                slack: world_slack(grid, views, origin, reach),
+                ..grid_data(grid, views, origin, count, &self.sizes)
+            },
+            Some(grid) => grid_data(grid, views, origin, count, &self.sizes),
+            None => gridless_data(count),
         };
         clustering.cluster_count = grid.map_or(0, |grid| grid.cluster_count() as u32);
         clustering.word_count = data.word_count;

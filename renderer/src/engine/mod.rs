@@ -37,7 +37,7 @@ use crate::gpu_interface::{ClusteringState, LightData};
 use crate::layouts::Pipeline;
 use crate::lights::FrameLights;
 use crate::measure::GrowthEvent;
-use crate::methods::Method;
+use crate::methods::{GridBox, Method};
 use crate::pass::{Recorder, ScopeTree, Timed};
 use crate::passes::{Draws, Frame};
 use crate::pipelines::Pipelines;
@@ -56,6 +56,7 @@ pub struct Engine {
     multiview: bool,
     marking: Marking,
     clusters: Clusters,
+    grid_box: GridBox,
     assigner: Assigner,
     resolution: [u32; 2],
     timed: Timed,
@@ -103,6 +104,7 @@ impl Engine {
             culling: run.culling,
             multiview: run.multiview && session.targets.len() > 1,
             clusters: chosen.clusters,
+            grid_box: run.grid_box,
             marking: run.marking,
             assigner: chosen.assigner,
             resolution: run.resolution,

@@ -83,7 +83,7 @@ impl Chosen {
         let method = run.methods[0];
         // A method without lists assigns nothing.
         let assigner = if method.has_lists() { mode.assigner } else { Assigner::Brute };
-        Self { method, assigner, clusters: run.clusters[0], test: run.test[0].of(&method) }
+        Self { method, assigner, clusters: method.listed(run.clusters[0]), test: run.test[0].of(&method) }
     }
 
     /// What the shaders of the engine are specialised for.

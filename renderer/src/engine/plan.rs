@@ -3,7 +3,7 @@
 use crate::config::Config;
 use crate::geometry::Grid;
 use crate::geometry::views::View;
-use crate::methods::Method;
+use crate::methods::{Method, Surroundings};
 use crate::recording::Recording;
 use crate::{Error, Result, origin};
 use glam::DVec3;
@@ -15,7 +15,8 @@ pub struct FramePlan {
     pub frame: u32,
     /// Rendering cameras of the frame.
     pub views: Vec<View>,
-    /// Grids: one a view for Indi, one for Encl, none for a method without clusters.
+    /// Grids: one a view for Indi, one for Encl, none for a method without clusters. The engine settles them (see
+    /// [`Self::settled`]) in each frame.
     pub grids: Vec<Grid>,
 }
 
@@ -23,6 +24,12 @@ impl FramePlan {
     /// The grid in which a view looks lights up.
     pub fn grid_of(&self, method: Method, view: usize) -> Option<&Grid> {
         self.grids.get(method.kind().sharing.clustering_of(view))
+    }
+
+    /// The frame with its grids where they lie among its lights and geometry.
+    #[must_use]
+    pub fn settled(&self, method: Method, around: &Surroundings) -> Self {
+        Self { grids: self.grids.iter().map(|grid| method.settled(grid, around)).collect(), ..self.clone() }
     }
 
     /// What positions on the device are relative to in this frame, metres.

@@ -7,8 +7,17 @@ use crate::report::Found;
 use serde_json::Value;
 
 /// Fields of a run's configuration that are no axes and bear on what it measures; their columns are called as they.
-const OPTIONS: [&str; 8] =
-    ["light_source", "msaa", "attenuation", "marking", "displaced_volume", "culling", "multiview", "scopes"];
+const OPTIONS: [&str; 9] = [
+    "light_source",
+    "msaa",
+    "attenuation",
+    "marking",
+    "displaced_volume",
+    "grid_box",
+    "culling",
+    "multiview",
+    "scopes",
+];
 
 /// A column with the cell of a run.
 type Column = (&'static str, fn(&Manifest) -> String);

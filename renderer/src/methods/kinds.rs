@@ -1,7 +1,7 @@
 //! The one table of methods.
 
 use super::grid::{GridMethod, Space};
-use super::{Method, Sharing};
+use super::{Method, Sharing, WorldGrid};
 use crate::geometry::CellShape;
 
 /// A kind of method: what is behind a name but for the sizes.
@@ -27,7 +27,7 @@ pub struct Kind {
 }
 
 /// Every kind of method. All serve transparent geometry, all views in stereo, and any number of samples.
-pub static KINDS: [Kind; 8] = [
+pub static KINDS: [Kind; 9] = [
     Kind {
         name: "indi-persp",
         sizes: &["PIXELS"],
@@ -106,6 +106,17 @@ pub static KINDS: [Kind; 8] = [
         make: |sizes| Method::grid(Sharing::Indi, Space::Tiled { pixels: sizes[0] }),
     },
     Kind {
+        name: "g",
+        sizes: &["CELLS"],
+        tuned: &[20.0],
+        title: "G",
+        about: "one grid of so many cells an axis in a box of the world, whatever the views",
+        sharing: Sharing::Encl,
+        lookup: "world",
+        cells: Some(CellShape::Box),
+        make: |sizes| Method::World(WorldGrid { cells: sizes[0] }),
+    },
+    Kind {
         name: "all-lights",
         sizes: &[],
         tuned: &[],
@@ -150,6 +161,7 @@ impl Method {
         match self {
             Self::AllLights => vec![],
             Self::Grid(GridMethod { space, .. }) => space.sizes(),
+            Self::World(WorldGrid { cells }) => vec![*cells],
         }
     }
 
@@ -161,9 +173,9 @@ impl Method {
     /// Whether the two differ in their sizes alone.
     fn is_like(&self, other: &Self) -> bool {
         match (self, other) {
-            (Self::AllLights, Self::AllLights) => true,
+            (Self::AllLights, Self::AllLights) | (Self::World(_), Self::World(_)) => true,
             (Self::Grid(a), Self::Grid(b)) => a.is_like(b),
-            (Self::AllLights | Self::Grid(_), _) => false,
+            (Self::AllLights | Self::Grid(_) | Self::World(_), _) => false,
         }
     }
 }

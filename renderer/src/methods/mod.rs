@@ -1,7 +1,7 @@
 //! The ways of finding the lights of a fragment. [`KINDS`] is the one table of them: name, sizes, and what each can do.
 //!
 //! A method's name is its identity everywhere: on the command line, in configurations, as run directory and as row of every
-//! table. `indi-persp-64`, `encl-ortho-4`, `indi-displ-64-32`, `tiled-16`, `all-lights`.
+//! table. `indi-persp-64`, `encl-ortho-4`, `indi-displ-64-32`, `tiled-16`, `g-20`, `all-lights`.
 //!
 //! ```text
 //! plan (pure, f64) -> resources -> record (passes) -> lookup/<name>.glsl (shading) -> twin (CPU)
@@ -13,18 +13,22 @@ pub mod all_lights;
 pub mod grid;
 mod kinds;
 mod name;
+pub mod world;
 
 pub use crate::geometry::Sharing;
 pub use grid::{GridMethod, Space};
 pub use kinds::{KINDS, Kind};
+pub use world::{GridBox, WorldGrid};
 
 use crate::Result;
 use crate::assign::Clusters;
 use crate::geometry::views::View;
 use crate::geometry::{DisplacedVolume, Grid};
+use crate::lights::PointLight;
 use crate::measure::Capacities;
 use crate::pass::Recorder;
 use crate::passes::{Depth, Frame, LightLists, Lights};
+use glam::DVec3;
 
 /// A method: how the lights of a fragment are found.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,6 +37,19 @@ pub enum Method {
     AllLights,
     /// Lights are found by the cells of grids.
     Grid(GridMethod),
+    /// Lights are found by the cells of a grid that lies in the world, whatever the views.
+    World(WorldGrid),
+}
+
+/// What of a frame but its views decides where groups lie.
+#[derive(Debug, Clone, Copy)]
+pub struct Surroundings<'a> {
+    /// Lights of the frame.
+    pub lights: &'a [PointLight],
+    /// Lowest and highest corner of all geometry, metres; `None` without any.
+    pub scene: Option<(DVec3, DVec3)>,
+    /// Which of the two a world grid is laid around.
+    pub grid_box: GridBox,
 }
 
 impl Method {
@@ -41,14 +58,37 @@ impl Method {
         Self::Grid(GridMethod::new(sharing, space))
     }
 
-    /// The grids of a frame: one a view for [`Sharing::Indi`], one for [`Sharing::Encl`], none for a method without.
+    /// The grids of a frame: one a view for [`Sharing::Indi`], one for [`Sharing::Encl`], none for a method without. Those that
+    /// do not depend on the views lie nowhere yet: [`Self::settled`].
     ///
     /// # Errors
-    /// Views or sizes that it cannot serve; see [`grid::plan`].
+    /// Views or sizes that it cannot serve; see [`grid::plan`] and [`world::plan`].
     pub fn plan(&self, views: &[View], resolution: [u32; 2], volume: DisplacedVolume) -> Result<Vec<Grid>> {
-        match self {
+        match *self {
             Self::AllLights => Ok(vec![]),
             Self::Grid(grid) => grid::plan(grid.space, grid.sharing, views, resolution, volume),
+            Self::World(grid) => Ok(vec![world::plan(grid)?]),
+        }
+    }
+
+    /// A planned grid where it lies among a frame's lights and geometry.
+    pub fn settled(&self, grid: &Grid, around: &Surroundings) -> Grid {
+        match self {
+            Self::AllLights | Self::Grid(_) => *grid,
+            Self::World(_) => world::settled(grid, around),
+        }
+    }
+
+    /// Which groups get lists where the configuration asks for `asked`: those that do not depend on the views all do.
+    pub fn listed(&self, asked: Clusters) -> Clusters {
+        if self.is_apart_from_views() { Clusters::All } else { asked }
+    }
+
+    /// Whether groups, and so their lists, are the same whatever the views.
+    pub fn is_apart_from_views(&self) -> bool {
+        match self {
+            Self::AllLights | Self::Grid(_) => false,
+            Self::World(_) => true,
         }
     }
 
@@ -56,7 +96,7 @@ impl Method {
     pub fn capacities(&self, clusters: u64, listed: Clusters, first: Capacities) -> Capacities {
         match self {
             Self::AllLights => Capacities { visible_clusters: 0, light_indices: 0 },
-            Self::Grid(_) => grid::capacities(clusters, listed, first),
+            Self::Grid(_) | Self::World(_) => grid::capacities(clusters, listed, first),
         }
     }
 
@@ -64,7 +104,7 @@ impl Method {
     pub fn record(&self, r: &mut Recorder, frame: &Frame, lights: Lights) -> (Depth, LightLists) {
         match self {
             Self::AllLights => all_lights::record(),
-            Self::Grid(_) => grid::record(r, frame, lights),
+            Self::Grid(_) | Self::World(_) => grid::record(r, frame, lights),
         }
     }
 }

@@ -34,8 +34,8 @@ pub const SPHERE_VERTICES: u32 = 6 * RINGS * SEGMENTS;
 pub struct DebugPipelines {
     /// Opaque and masked surfaces without their shading.
     pub clay: [Arc<Pipeline>; 2],
-    /// Clusters of pixels: by the view's own lookup, by world position. Clustered methods alone use them.
-    pub pixel_clusters: [Arc<Pipeline>; 2],
+    /// Clusters of pixels: by the view's own lookup, by world position. Methods with lists alone have them.
+    pub pixel_clusters: Option<[Arc<Pipeline>; 2]>,
     /// Lines: through everything, then where nothing hides them.
     pub lines: [Arc<Pipeline>; 2],
     /// Draws the influence volumes of lights.
@@ -64,10 +64,13 @@ impl PipelineStore {
                     Output::Shades(SurfaceKind::Masked, TextureSet::BASE_COLOR),
                 )?,
             ],
-            pixel_clusters: [
-                self.compute(clusters, &defines.with("WORLD_LOOKUP", 0))?,
-                self.compute(clusters, &defines.with("WORLD_LOOKUP", 1))?,
-            ],
+            pixel_clusters: match variant.cells {
+                Some(_) => Some([
+                    self.compute(clusters, &defines.with("WORLD_LOOKUP", 0))?,
+                    self.compute(clusters, &defines.with("WORLD_LOOKUP", 1))?,
+                ]),
+                None => None,
+            },
             lines: [self.lines(variant, true)?, self.lines(variant, false)?],
             spheres: self.spheres(variant)?,
             all: vec![],

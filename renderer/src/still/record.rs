@@ -40,7 +40,8 @@ pub fn record(r: &mut Recorder, frame: &Frame, drawing: &Drawing, outputs: &Outp
         clay::record(r, frame, drawing.pipelines, view);
         copy_out(r, frame, view, outputs.clay);
         let maps = &frame.pipelines.pixel_maps;
-        let pipeline = drawing.lookup.map_or(maps, |lookup| &drawing.pipelines.pixel_clusters[lookup]);
+        let lookups = drawing.lookup.zip(drawing.pipelines.pixel_clusters.as_ref());
+        let pipeline = lookups.map_or(maps, |(lookup, pipelines)| &pipelines[lookup]);
         for (&clustering, output) in drawing.clusterings.iter().zip(outputs.clusterings) {
             pixel_clusters::record(r, frame, pipeline, (view, clustering), output);
         }

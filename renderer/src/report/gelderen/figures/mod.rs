@@ -207,6 +207,7 @@ const FRAGMENTS: Wanted<'static> = Wanted {
 fn space_color(method: Method) -> Color {
     match method {
         Method::AllLights => "black",
+        Method::World(_) => "sky",
         Method::Grid(grid) => match grid.space {
             Space::Persp { .. } => "blue",
             Space::Tiled { .. } => "orange",

@@ -1,0 +1,194 @@
+//! Groups that do not depend on the views: pictures are those over all lights, lists are their twins', and the same from
+//! wherever one looks.
+
+use glam::DVec3;
+use manylight::assign::{Clusters, Marking};
+use manylight::config::{Assign, Config, ExrFrames, FrameRange};
+use manylight::cpu::Visible;
+use manylight::engine::plan_frames;
+use manylight::geometry::SphereTest;
+use manylight::inputs::Inputs;
+use manylight::lights::Lighting;
+use manylight::measure::{ClusterLists, ViewPixels};
+use manylight::methods::grid::twin;
+use manylight::methods::{GridBox, Surroundings};
+use manylight::selftest::{count_fault, picture_fault};
+use manylight_tests::{Run, methods, run};
+use std::fmt::Write as _;
+use std::path::Path;
+
+const METHODS: [&str; 2] = ["all-lights", "g-20"];
+
+fn config(scene: &str, recording: &str) -> Config {
+    Config {
+        scene: scene.into(),
+        recording: recording.into(),
+        methods: methods(&METHODS),
+        resolution: [80, 48],
+        frames: FrameRange { first: 100, end: Some(581), step: 240 },
+        runs: 0.into(),
+        exr: ExrFrames::All,
+        ..Config::default()
+    }
+}
+
+/// Checks pictures and counts of every run against those of the first, over all lights.
+fn equal_the_truth(runs: &[Run], marking: Marking) {
+    let truth = &runs[0];
+    for run in &runs[1..] {
+        let name = &run.planned.name;
+        for ((frame, views), (_, truths)) in run.images.iter().zip(&truth.images) {
+            for (view, truth) in views.iter().zip(truths) {
+                assert_eq!(picture_fault(view, truth), None, "{name} frame {frame}");
+            }
+        }
+        for (counts, truth) in run.counts.iter().zip(&truth.counts) {
+            assert_eq!(count_fault(counts, truth, marking), None, "{name} frame {}", counts.frame);
+            assert!(counts.clusterings.len() == 1, "{name}: one clustering serves all views");
+        }
+    }
+}
+
+fn check(config: Config) {
+    let marking = config.marking;
+    equal_the_truth(&run(config), marking);
+}
+
+#[test]
+fn one_sample_in_stereo() {
+    check(config("street", "bistro-vive"));
+}
+
+#[test]
+fn four_samples() {
+    check(Config { msaa: 4, ..config("street", "bistro") });
+}
+
+#[test]
+fn four_samples_in_stereo_shaded_by_fragment() {
+    check(Config { msaa: 4, marking: Marking::Geometry, ..config("temple", "suntem-vive") });
+}
+
+#[test]
+fn views_in_mirrors_drawn_at_once() {
+    let frames = FrameRange { first: 140, end: Some(141), step: 1 };
+    check(Config { multiview: true, frames, resolution: [56, 56], ..config("street", "bistro-mirror") });
+}
+
+#[test]
+fn the_box_of_all_geometry_loses_nothing_either() {
+    let lights = vec![Lighting { count: 500, intensity: 40.0, cutoff: 0.5, r0: 0.1 }];
+    let of = |grid_box| run(Config { grid_box, lights: lights.clone(), ..config("street", "bistro") });
+    let (around_lights, around_scene) = (of(GridBox::Lights), of(GridBox::Scene));
+    equal_the_truth(&around_scene, Marking::Depth);
+    assert_ne!(around_lights[1].lists, around_scene[1].lists, "the boxes differ");
+}
+
+/// A frame's lists that every way of assignment makes.
+#[test]
+fn every_way_of_assignment_makes_the_same_lists() {
+    let assign = vec![Assign::Brute, Assign::Hierarchy, Assign::Scatter];
+    let frames = FrameRange { first: 100, end: Some(101), step: 1 };
+    let names = methods(&METHODS[1..]);
+    let runs = run(Config { methods: names, assign, frames, ..config("temple", "suntem-vive") });
+    for ways in runs.chunks(3) {
+        for run in ways {
+            assert_eq!(run.lists, ways[0].lists, "{}", run.planned.name);
+            assert!(run.lists[0].indices.len() > 1000, "{}", run.planned.name);
+        }
+    }
+}
+
+/// Lights that stay where they are, in the street and around it.
+fn write_lights(path: &Path) {
+    let part = |k: u32, step: u32| f64::from(k.wrapping_mul(step) >> 16 & 1023) / 1024.0;
+    let mut text = String::from("x,y,z,r,g,b,i,i0,r0\n");
+    for k in 1..=600_u32 {
+        let x = -40.0 + 80.0 * part(k, 2_654_435_761);
+        let y = -1.0 + 13.0 * part(k, 2_246_822_519);
+        let z = -40.0 + 80.0 * part(k, 3_266_489_917);
+        writeln!(text, "{x},{y},{z},1,0.9,0.8,{},0.5,0.01", 1 + k % 23).unwrap();
+    }
+    std::fs::write(path, text).unwrap();
+}
+
+/// The lists of the methods but the first, one of each frame.
+fn lists_seen_from(recording: &str, lights: &Path) -> Vec<Vec<ClusterLists>> {
+    let config = Config {
+        methods: methods(&METHODS[1..]),
+        lights: vec![],
+        lights_file: Some(lights.into()),
+        exr: ExrFrames::List(vec![]),
+        ..config("street", recording)
+    };
+    run(config).into_iter().map(|run| run.lists).collect()
+}
+
+#[test]
+fn lists_do_not_depend_on_the_view() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("lights.csv");
+    write_lights(&file);
+    let seen = ["bistro", "bistro-vive", "suntem"].map(|recording| lists_seen_from(recording, &file));
+    for (method, name) in METHODS[1..].iter().enumerate() {
+        let first = &seen[0][method][0];
+        assert!(first.indices.len() > 2000, "{name}");
+        for lists in seen.iter().flat_map(|recording| &recording[method]) {
+            assert_eq!((&lists.offsets, &lists.indices), (&first.offsets, &first.indices), "{name}");
+        }
+    }
+}
+
+/// Pixels of one view whose cell is not the twin's, for what is farther than a millimetre from where cells meet.
+fn wrong_cells(view: &ViewPixels, cell_of: impl Fn(DVec3) -> Option<u32>) -> usize {
+    let [width, height] = [view.width, view.height];
+    let view_from_clip = view.clip_from_view.inverse();
+    let wrong = |pixel: u32| {
+        let distance = f64::from(view.depth[pixel as usize]);
+        if !distance.is_finite() {
+            return false;
+        }
+        let at = [(pixel % width, width), (pixel / width, height)]
+            .map(|(at, size)| 2.0 * (f64::from(at) + 0.5) / f64::from(size) - 1.0);
+        let near = view_from_clip.project_point3(DVec3::new(at[0], -at[1], 0.5));
+        let world = view.world_from_view.transform_point3(near * (distance / -near.z));
+        cell_of(world).is_some_and(|cell| cell != view.cluster_index[pixel as usize])
+    };
+    (0..width * height).filter(|&pixel| wrong(pixel)).count()
+}
+
+#[test]
+fn cells_and_lists_of_a_world_grid_are_their_twins() {
+    let config = Config {
+        methods: methods(&["g-20"]),
+        frames: FrameRange { first: 300, end: Some(301), step: 1 },
+        clusters: vec![Clusters::Visible],
+        ..config("street", "bistro")
+    };
+    let run = &run(config.clone())[0];
+    let inputs = Inputs::load(&config).unwrap();
+    let mut source = inputs.light_source(&run.planned.lights).unwrap();
+    let lights = source.at_frame(300).list;
+    let around = Surroundings { lights, scene: inputs.scene.bounds(), grid_box: config.grid_box };
+    let plan = plan_frames(&config, &inputs.recording).unwrap().remove(0);
+    let grid = plan.settled(config.methods[0], &around).grids[0];
+    let clusters: Vec<u32> = (0..8000).collect();
+    assert_eq!(run.counts[0].clusterings[0].visible_clusters, 8000, "all cells have lists");
+    let listed = Visible { grid: &grid, clusters: &clusters };
+    let lists = twin::light_lists(listed, lights, SphereTest::Box, 2e-3);
+    for cell in 0..8000 {
+        let close = &lists.borderline[cell];
+        let sure = |list: &[u32]| -> Vec<u32> {
+            list.iter().copied().filter(|light| !close.contains(light)).collect()
+        };
+        assert_eq!(sure(run.lists[0].list(cell)), sure(lists.list(cell)), "cell {cell}");
+    }
+    assert!(lists.indices.len() > 3000);
+    let cell_of = |world: DVec3| {
+        let local = grid.pose.inverse_transform_point(world);
+        let near = |sign: f64| grid.nearest_cluster(local + DVec3::splat(sign * 1e-3));
+        let cell = near(0.0)?;
+        (near(-1.0) == near(1.0)).then(|| grid.linear(cell))
+    };
+    assert_eq!(wrong_cells(&run.images[0].1[0], cell_of), 0);
+}
