@@ -188,6 +188,8 @@ buffers! {
     Lights = buffer("lights", Owner::Engine)
         .texels("light", Element::Struct(LightData::INFO))
         .sized(|s| bytes::<LightData>(s.lights.into()));
+    /// Boxes around the scene's models, in drawing order.
+    ModelBoxes = buffer("model_boxes", Owner::Scene).storage("ModelBox model_boxes[]");
     /// What is drawn of the scene where the device culls.
     Drawables = buffer("drawables", Owner::Scene).storage("DrawCommand drawables[]");
     /// How many drawables there are, and the order of the transparent ones.

@@ -58,6 +58,8 @@ pub struct Clustering {
     pub host: [ClusteringBuffers; FRAME_SLOTS],
     /// The views that look lights up here.
     pub views: Range<usize>,
+    /// Cells of this frame's grid along each axis; zero without a grid.
+    pub dimensions: [u32; 3],
     /// Clusters of this frame's grid.
     pub cluster_count: u32,
     /// Words of visibility bits of this frame's grid.
@@ -98,6 +100,7 @@ impl Clustering {
             buffers,
             host,
             views,
+            dimensions: [0; 3],
             cluster_count: 0,
             word_count: 0,
             visible_capacity: sizes.capacities.visible_clusters,

@@ -1,5 +1,6 @@
 //! What views may see: boxes around instances against the planes of frusta. Pure: no Vulkan.
 
+use crate::geometry::OrientedBox;
 use crate::geometry::views::View;
 use crate::scene::{Bounds, Instance};
 use clap::ValueEnum;
@@ -41,6 +42,21 @@ impl WorldBox {
     /// No point of it is farther than this from `origin`, metres.
     pub fn reach(&self, origin: DVec3) -> f64 {
         self.center.distance(origin) + self.half_extent.length()
+    }
+}
+
+impl OrientedBox {
+    /// Around an instance of a primitive with object-space `bounds`; where the instance's matrix shears, along the world's axes,
+    /// and true.
+    pub fn around(instance: &Instance, bounds: &Bounds) -> (Self, bool) {
+        let corners = [bounds.min.as_dvec3(), bounds.max.as_dvec3()];
+        match Self::of(&instance.world_from_object, corners) {
+            Some(found) => (found, false),
+            None => {
+                let WorldBox { center, half_extent } = WorldBox::new(instance, bounds);
+                (Self::along_axes(center, half_extent), true)
+            }
+        }
     }
 }
 

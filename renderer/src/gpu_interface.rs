@@ -5,7 +5,7 @@ mod structs;
 
 pub use structs::{
     Candidate, ClusterGroup, ClusteringState, DispatchSize, DrawCommand, DrawCounts, GridData, InstanceData,
-    LightData, LightNode, LightVolume, MaterialData, PixelData, Push, ViewData,
+    LightData, LightNode, LightVolume, MaterialData, ModelBox, PixelData, Push, ViewData,
 };
 
 use crate::geometry::VolumeKind;
@@ -129,7 +129,7 @@ const TEXTURE_SLOTS: [(&str, TextureSlot); 5] = [
 ];
 
 /// Every shared struct; one comes after those it contains.
-const STRUCTS: [StructInfo; 15] = [
+const STRUCTS: [StructInfo; 16] = [
     ViewData::INFO,
     GridData::INFO,
     LightNode::INFO,
@@ -137,6 +137,7 @@ const STRUCTS: [StructInfo; 15] = [
     LightData::INFO,
     MaterialData::INFO,
     InstanceData::INFO,
+    ModelBox::INFO,
     DrawCommand::INFO,
     DrawCounts::INFO,
     ClusteringState::INFO,
@@ -149,7 +150,7 @@ const STRUCTS: [StructInfo; 15] = [
 
 /// Names of what shader variants choose among; the value is the position.
 const VARIANT_NAMES: [&[&str]; 5] = [
-    &["SPACE_PERSPECTIVE", "SPACE_ORTHOGRAPHIC"],
+    &["SPACE_PERSPECTIVE", "SPACE_ORTHOGRAPHIC", "SPACE_MODEL"],
     &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS", "SCAN_DIGITS", "SCAN_GROUPS"],
     &["ASSIGN_BRUTE", "ASSIGN_HIERARCHY", "ASSIGN_SCATTER"],
     &["CLUSTERS_VISIBLE", "CLUSTERS_ALL"],

@@ -6,7 +6,7 @@ use crate::draw_list::{Batch, Batches};
 use crate::drawables::Drawables;
 use crate::gpu_interface::{InstanceData, MaterialData};
 use crate::layouts::{DescriptorSets, Layouts, MATERIAL_SET, MATERIAL_TEXTURES};
-use crate::placements::{Placement, near_vertices, placements};
+use crate::placements::{Placement, middle, model_boxes, near_vertices, placements};
 use crate::scene::{Image, Material, Sampler, Scene, TextureRef, TextureSlot, Wrap};
 use crate::texture_sets::TextureSet;
 use crate::vk::{self as gpu, Buffer, Context, SamplerCache};
@@ -30,6 +30,8 @@ pub struct GpuScene {
     /// No instance reaches farther from `origin`, metres.
     pub reach: f64,
     placements: Vec<Placement>,
+    /// [`crate::gpu_interface::ModelBox`] in drawing order.
+    pub model_boxes: Buffer,
     /// Draw commands of all drawables, as [`Drawables::all`] has them.
     pub drawables: Buffer,
     /// What can be drawn at once.
@@ -88,6 +90,12 @@ impl GpuScene {
             bounds: scene.bounds(),
             reach: reach(&placements, DVec3::ZERO),
             placements,
+            model_boxes: Buffer::with_data(
+                context,
+                "model boxes",
+                BufferName::ModelBoxes.info().usage(),
+                &model_boxes(scene, batches, middle(scene.bounds())),
+            )?,
             drawables: Buffer::with_data(
                 context,
                 "drawables",
@@ -102,6 +110,11 @@ impl GpuScene {
             _textures: textures,
             _samplers: samplers,
         })
+    }
+
+    /// How many models there are: instances that are drawn.
+    pub fn models(&self) -> u32 {
+        self.placements.len() as u32
     }
 
     /// Places the instances relative to another origin, once every frame in flight has ended. Origins are coarse: this is

@@ -7,6 +7,7 @@ use crate::lights::{
     self, Corners, Generated, GeneratorKind, LightSource, Lighting, LightsFile, LightsFrom, PointLight,
     StaticLights, Surroundings,
 };
+use crate::methods::{Method, model};
 use crate::recording::{self, Recording};
 use crate::scene::{self, Scene, procedural};
 use crate::{Error, Result};
@@ -104,7 +105,7 @@ impl Inputs {
     }
 
     /// Says where it rains, where the recording does not.
-    pub fn rain_note(&self) -> Option<String> {
+    fn rain_note(&self) -> Option<String> {
         (self.rains && self.recording.rain().is_none()).then(|| {
             let RainParameters { box_min, box_max, .. } = self.rain();
             format!(
@@ -112,6 +113,12 @@ impl Inputs {
                 self.recording.name()
             )
         })
+    }
+
+    /// What is good to know before methods are run: where it rains, and what of the scene they do not serve as it is.
+    pub fn notes(&self, methods: &[Method]) -> impl Iterator<Item = String> {
+        let sheared = methods.contains(&Method::Models).then(|| model::sheared_note(&self.scene)).flatten();
+        self.rain_note().into_iter().chain(sheared)
     }
 
     /// How many lights a source of lights has.

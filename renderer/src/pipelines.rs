@@ -41,8 +41,8 @@ pub struct ScanPipelines {
 
 /// Visiting the cluster of every fragment.
 pub struct MarkPipelines {
-    /// Marks clusters from the depth buffer.
-    pub depth: Arc<Pipeline>,
+    /// Marks clusters from the depth buffer; `None` where that does not tell them.
+    pub depth: Option<Arc<Pipeline>>,
     /// Mark clusters from geometry, by [`SurfaceKind`].
     pub geometry: [Arc<Pipeline>; 3],
 }
@@ -58,6 +58,8 @@ pub struct Pipelines {
     pub shade: [BTreeMap<TextureSet, Arc<Pipeline>>; 3],
     /// What is known of each pixel, for images.
     pub pixel_maps: Arc<Pipeline>,
+    /// The model of each pixel, of opaque and of masked surfaces, where groups are models and all is counted.
+    pub pixel_models: Option<[Arc<Pipeline>; 2]>,
     clustered: Option<ClusteredPipelines>,
     accelerated: Option<AcceleratedPipelines>,
     all: Vec<Arc<Pipeline>>,
@@ -154,6 +156,7 @@ impl PipelineStore {
             depth_masked: self.graphics(variant, Some("geometry/alpha_test.frag"), Output::Depth)?,
             shade: self.shade(variant)?,
             pixel_maps: self.compute("measure/pixel_maps.comp", &variant.defines())?,
+            pixel_models: self.pixel_models(variant)?,
             clustered,
             accelerated,
             all: vec![],
@@ -174,11 +177,22 @@ impl PipelineStore {
         Ok(shade)
     }
 
+    fn pixel_models(&mut self, variant: &Variant) -> Result<Option<[Arc<Pipeline>; 2]>> {
+        let mut of = |kind| self.graphics(variant, Some("measure/pixel_models.frag"), Output::Counts(kind));
+        match variant.has_models() && variant.counting {
+            true => Ok(Some([of(SurfaceKind::Opaque)?, of(SurfaceKind::Masked)?])),
+            false => Ok(None),
+        }
+    }
+
     fn mark(&mut self, variant: &Variant, count: bool) -> Result<MarkPipelines> {
         let output = |kind| if count { Output::Counts(kind) } else { Output::Marks(kind) };
         let defines = variant.defines().with("COUNT_FRAGMENTS", u32::from(count));
         Ok(MarkPipelines {
-            depth: self.compute("cluster/mark_depth.comp", &defines)?,
+            depth: match variant.has_models() {
+                true => None,
+                false => Some(self.compute("cluster/mark_depth.comp", &defines)?),
+            },
             geometry: self.per_kind(variant, "cluster/mark_geometry.frag", output)?,
         })
     }

@@ -5,7 +5,8 @@
 
 use crate::culling::WorldBox;
 use crate::draw_list::Batches;
-use crate::gpu_interface::InstanceData;
+use crate::geometry::OrientedBox;
+use crate::gpu_interface::{InstanceData, ModelBox};
 use crate::scene::{Bounds, Primitive, Scene, Vertex};
 use glam::{DMat4, DVec3, Vec3};
 use std::borrow::Cow;
@@ -38,6 +39,26 @@ impl Placement {
     pub fn reach(&self, origin: DVec3) -> f64 {
         self.bounds.reach(origin)
     }
+}
+
+/// The point that boxes of models on the device are relative to, given the lowest and the highest corner of the scene, metres.
+pub fn middle(scene: Option<(DVec3, DVec3)>) -> DVec3 {
+    scene.map_or(DVec3::ZERO, |(low, high)| 0.5 * (low + high))
+}
+
+/// Boxes around the scene's models in drawing order, relative to `middle` (metres).
+pub fn model_boxes(scene: &Scene, batches: &Batches, middle: DVec3) -> Vec<ModelBox> {
+    let boxed = |&index: &u32| {
+        let instance = &scene.instances[index as usize];
+        let bounds = &scene.primitives[instance.primitive as usize].bounds;
+        let (OrientedBox { center, half_extent, axes }, _) = OrientedBox::around(instance, bounds);
+        ModelBox {
+            centre: (center - middle).as_vec3().to_array(),
+            half_extent: half_extent.as_vec3().to_array(),
+            axes: axes.map(|axis| axis.as_vec3().to_array()),
+        }
+    };
+    batches.instances.iter().map(boxed).collect()
 }
 
 /// The scene's instances in drawing order.

@@ -5,15 +5,16 @@
 #version 460
 #include "lib/sample_positions.glsl"
 #include "lookup/$LOOKUP.glsl"
+#include "lib/cluster_space.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uint cluster_at(ViewData view, vec2 location, float depth)
 {
 #if WORLD_LOOKUP
-    return group_at((view.world_from_view * vec4(view_position(view, location, depth), 1.0)).xyz);
+    return group_seen(view, location, depth);
 #else
-    return cluster_of_sample(view, location, depth);
+    return group_of_sample(view, location, depth);
 #endif
 }
 

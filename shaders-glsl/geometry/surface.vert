@@ -3,6 +3,7 @@
 // VIEWS: how many views are drawn at once, a layer of the target each: then every instance comes as often, view by view. 0
 // for one view, whose number is pushed.
 // VARYINGS: 0 position alone, 1 with colour and texture coordinates (alpha test), 2 with the normal and tangent.
+// MODELS: 1 with the model, which is the instance.
 // TEXTURES: those of the material that are sampled; without any there are no texture coordinates, without a normal map no
 // tangent.
 #version 460
@@ -34,6 +35,10 @@ layout(location = 2) out vec3 out_normal;
 #if VIEWS
 layout(location = 4) flat out uint out_view;
 #endif
+#endif
+
+#if MODELS
+layout(location = 5) flat out uint out_model;
 #endif
 
 // The same bits in every pass: shading tests for equal depth.
@@ -69,6 +74,9 @@ void main()
     clip_behind_mirror(view, world.xyz);
 #if VIEWS
     clip_other_handedness(view);
+#endif
+#if MODELS
+    out_model = instance;
 #endif
 #if TEXTURED
     out_uv = vec4(uv0, uv1);

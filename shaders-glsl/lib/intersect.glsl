@@ -23,6 +23,8 @@ const float RANGE_ROUNDING = 4e-6;
 
 #if SPACE == SPACE_PERSPECTIVE
 #include "lib/cell_frustum.glsl"
+#elif SPACE == SPACE_MODEL
+#include "lib/cell_model.glsl"
 #else
 #include "lib/cell_box.glsl"
 #endif
@@ -84,7 +86,9 @@ bool may_meet_range(CellBounds range, LightVolume volume)
 // Whether a sphere whose centre lies anywhere in a box may meet the cell; `sphere` has the box's centre.
 bool meets_grown(CellBounds cell, vec4 sphere, vec3 half_extent)
 {
-#if !TEST_BOUNDED
+#if SPACE == SPACE_MODEL
+    return nearest_point_within_grown(cell, sphere, half_extent);
+#elif !TEST_BOUNDED
     return true;
 #elif SPACE == SPACE_ORTHOGRAPHIC && TEST_NEAREST
     return nearest_point_within(CellBounds(cell.centre, cell.half_extent + half_extent), sphere);

@@ -3,10 +3,10 @@
 
 #include "lib/cell_lists.glsl"
 
-// The cluster of a point of the world, by its index in the grid; NO_GROUP outside.
-uint group_at(vec3 world)
+// The cluster of what some other camera sees, by its index in the grid; NO_GROUP outside.
+uint group_seen(ViewData view, vec2 pixel, float depth)
 {
-    vec3 local = (grid.clustering_from_world * vec4(world, 1.0)).xyz;
+    vec3 local = clustering_position(view, pixel, depth);
 #if SPACE == SPACE_PERSPECTIVE
     if (local.z >= 0.0)
         return NO_GROUP;

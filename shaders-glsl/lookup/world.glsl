@@ -4,8 +4,8 @@
 
 #include "lib/cell_lists.glsl"
 
-// The cell of a point of the world, by its index in the grid.
-uint group_at(vec3 world)
+// The cell of what some other camera sees, by its index in the grid.
+uint group_seen(ViewData view, vec2 pixel, float depth)
 {
-    return linear_cluster(cell_of_position((grid.clustering_from_world * vec4(world, 1.0)).xyz));
+    return linear_cluster(cell_of_position(clustering_position(view, pixel, depth)));
 }

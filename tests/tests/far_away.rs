@@ -44,7 +44,7 @@ fn write_lights(path: &Path, away: [f64; 3]) {
     std::fs::write(path, text).unwrap();
 }
 
-/// Brute force and the six methods over the scene at `away`.
+/// Brute force, the usual methods and those that views are nothing to over the scene at `away`.
 fn runs(away: [f64; 3], lights: Lights, stereo: bool) -> Vec<Run> {
     let directory = tempfile::tempdir().unwrap();
     let file = |name: &str| directory.path().join(name);
@@ -69,7 +69,7 @@ fn runs(away: [f64; 3], lights: Lights, stereo: bool) -> Vec<Run> {
         lights_file: (lights == Lights::File).then(|| file("lights.csv")),
         scene_lights: lights == Lights::Scene,
         attenuation: Attenuation::Stp,
-        methods: methods(&METHODS),
+        methods: methods(&[&METHODS[..], &["g-6", "m"]].concat()),
         resolution: [64, 40],
         frames: FrameRange { first: 0, end: Some(1), step: 1 },
         runs: 0.into(),

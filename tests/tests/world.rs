@@ -5,19 +5,23 @@ use glam::DVec3;
 use manylight::assign::{Clusters, Marking};
 use manylight::config::{Assign, Config, ExrFrames, FrameRange};
 use manylight::cpu::Visible;
+use manylight::culling::Culling;
 use manylight::engine::plan_frames;
 use manylight::geometry::SphereTest;
 use manylight::inputs::Inputs;
 use manylight::lights::Lighting;
 use manylight::measure::{ClusterLists, ViewPixels};
 use manylight::methods::grid::twin;
-use manylight::methods::{GridBox, Surroundings};
+use manylight::methods::{GridBox, Scenery};
+use manylight::output::planned_runs;
 use manylight::selftest::{count_fault, picture_fault};
+use manylight::still::{self, Item, Show, Viewpoint};
+use manylight_tests::scenes::write_lights;
 use manylight_tests::{Run, methods, run};
-use std::fmt::Write as _;
+use std::collections::BTreeSet;
 use std::path::Path;
 
-const METHODS: [&str; 2] = ["all-lights", "g-20"];
+const METHODS: [&str; 3] = ["all-lights", "g-20", "m"];
 
 fn config(scene: &str, recording: &str) -> Config {
     Config {
@@ -65,14 +69,24 @@ fn four_samples() {
 }
 
 #[test]
+fn four_samples_in_stereo() {
+    check(Config { msaa: 4, ..config("temple", "suntem-vive") });
+}
+
+/// What is shaded at the centre of its pixel may lie off its model, but not off its cell.
+#[test]
 fn four_samples_in_stereo_shaded_by_fragment() {
-    check(Config { msaa: 4, marking: Marking::Geometry, ..config("temple", "suntem-vive") });
+    let methods = methods(&METHODS[..2]);
+    check(Config { methods, msaa: 4, marking: Marking::Geometry, ..config("temple", "suntem-vive") });
 }
 
 #[test]
 fn views_in_mirrors_drawn_at_once() {
     let frames = FrameRange { first: 140, end: Some(141), step: 1 };
-    check(Config { multiview: true, frames, resolution: [56, 56], ..config("street", "bistro-mirror") });
+    for (culling, multiview) in [(Culling::Cpu, true), (Culling::Gpu, false)] {
+        let config = config("street", "bistro-mirror");
+        check(Config { multiview, culling, frames, resolution: [56, 56], ..config });
+    }
 }
 
 #[test]
@@ -99,19 +113,6 @@ fn every_way_of_assignment_makes_the_same_lists() {
     }
 }
 
-/// Lights that stay where they are, in the street and around it.
-fn write_lights(path: &Path) {
-    let part = |k: u32, step: u32| f64::from(k.wrapping_mul(step) >> 16 & 1023) / 1024.0;
-    let mut text = String::from("x,y,z,r,g,b,i,i0,r0\n");
-    for k in 1..=600_u32 {
-        let x = -40.0 + 80.0 * part(k, 2_654_435_761);
-        let y = -1.0 + 13.0 * part(k, 2_246_822_519);
-        let z = -40.0 + 80.0 * part(k, 3_266_489_917);
-        writeln!(text, "{x},{y},{z},1,0.9,0.8,{},0.5,0.01", 1 + k % 23).unwrap();
-    }
-    std::fs::write(path, text).unwrap();
-}
-
 /// The lists of the methods but the first, one of each frame.
 fn lists_seen_from(recording: &str, lights: &Path) -> Vec<Vec<ClusterLists>> {
     let config = Config {
@@ -128,13 +129,38 @@ fn lists_seen_from(recording: &str, lights: &Path) -> Vec<Vec<ClusterLists>> {
 fn lists_do_not_depend_on_the_view() {
     let directory = tempfile::tempdir().unwrap();
     let file = directory.path().join("lights.csv");
-    write_lights(&file);
+    // In the street and around it.
+    write_lights(&file, 600, [[-40.0, -1.0, -40.0], [40.0, 12.0, 40.0]], (23, 23.0));
     let seen = ["bistro", "bistro-vive", "suntem"].map(|recording| lists_seen_from(recording, &file));
     for (method, name) in METHODS[1..].iter().enumerate() {
         let first = &seen[0][method][0];
         assert!(first.indices.len() > 2000, "{name}");
         for lists in seen.iter().flat_map(|recording| &recording[method]) {
             assert_eq!((&lists.offsets, &lists.indices), (&first.offsets, &first.indices), "{name}");
+        }
+    }
+}
+
+/// Whoever looks on from elsewhere sees a group with its lights at every pixel: none is without.
+#[test]
+fn an_onlooker_sees_a_group_wherever_there_is_something() {
+    let frames = FrameRange { first: 300, end: Some(301), step: 1 };
+    for name in &METHODS[1..] {
+        let config =
+            Config { methods: methods(&[name]), frames, validate: true, ..config("street", "bistro") };
+        let inputs = Inputs::load(&config).unwrap();
+        let show = Show::from_items(&[Item::LightCount, Item::Frusta, Item::Missing]).unwrap();
+        for view in [None, Some("birdseye")] {
+            let run = &planned_runs(&config)[0];
+            let seen = still::render(&inputs, run, Viewpoint::Named(view), &show).unwrap().pixels;
+            let groups = seen.cluster_index.iter().zip(&seen.depth);
+            assert!(
+                groups.into_iter().all(|(&group, depth)| (group == u32::MAX) == depth.is_infinite()),
+                "{name}"
+            );
+            let kinds: BTreeSet<u32> = seen.cluster_index.iter().copied().collect();
+            assert!(kinds.len() > 8, "{name} {view:?}: {}", kinds.len());
+            assert!(seen.light_count.iter().any(|&count| count > 0));
         }
     }
 }
@@ -169,7 +195,7 @@ fn cells_and_lists_of_a_world_grid_are_their_twins() {
     let inputs = Inputs::load(&config).unwrap();
     let mut source = inputs.light_source(&run.planned.lights).unwrap();
     let lights = source.at_frame(300).list;
-    let around = Surroundings { lights, scene: inputs.scene.bounds(), grid_box: config.grid_box };
+    let around = Scenery { lights, scene: inputs.scene.bounds(), models: 0, grid_box: config.grid_box };
     let plan = plan_frames(&config, &inputs.recording).unwrap().remove(0);
     let grid = plan.settled(config.methods[0], &around).grids[0];
     let clusters: Vec<u32> = (0..8000).collect();

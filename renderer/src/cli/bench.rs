@@ -98,7 +98,7 @@ fn assign(args: &Args, console: &Console) -> Result<()> {
     let bench = args.bench()?;
     let interrupt = Interrupt::install()?;
     let inputs = Inputs::load(&config)?;
-    inputs.rain_note().into_iter().for_each(|note| console.note(&note));
+    inputs.notes(&config.methods).for_each(|note| console.note(&note));
     prepare_file(&args.out)?;
     let tests: usize = config.methods.iter().map(|method| bench.tests_of(method).len()).sum();
     let cases = bench.lights.len() * bench.frames.len() * bench.assigners.len() * tests;

@@ -58,7 +58,7 @@ pub fn run(args: Args, console: &Console) -> Result<()> {
     let run = planned_runs(&config).remove(0);
     run.check()?;
     let inputs = Inputs::load(&config)?;
-    inputs.rain_note().into_iter().for_each(|note| console.note(&note));
+    inputs.notes(&config.methods).for_each(|note| console.note(&note));
     prepare_output(&config.out)?;
     let still = render(&inputs, &run, viewpoint, &show)?;
     if still.view != BIRDSEYE {

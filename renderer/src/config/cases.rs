@@ -1,6 +1,7 @@
 //! What the configuration of one run says: the way of assignment and the test.
 
 use super::{Assign, Config, LightsFrom};
+use crate::assign::Marking;
 use crate::geometry::{CellShape, SphereTest};
 use crate::methods::Method;
 use crate::nearest;
@@ -21,15 +22,21 @@ impl Test {
     /// The test that is asked of the clusters of `method`; a method without clusters asks nothing.
     pub fn of(self, method: &Method) -> SphereTest {
         match self {
+            _ if has_models(method) => SphereTest::Exact,
             Self::Named(test) => test,
             Self::Auto if has_boxes(method) => SphereTest::Box,
             Self::Auto => SphereTest::HALF_SPACES,
         }
     }
 
-    /// The test by its name for the clusters of `method`; a method without clusters has none.
+    /// The test by its name for the clusters of `method`; a method without clusters has none. One that the method does not
+    /// serve stays as it is, to be refused.
     pub fn resolved(self, method: &Method) -> Self {
-        if !method.has_lists() { Self::Auto } else { Self::Named(self.of(method)) }
+        match self {
+            _ if !method.has_lists() => Self::Auto,
+            Self::Named(_) => self,
+            Self::Auto => Self::Named(self.of(method)),
+        }
     }
 }
 
@@ -38,13 +45,32 @@ fn has_boxes(method: &Method) -> bool {
     method.kind().cells == Some(CellShape::Box)
 }
 
+/// Whether the method's groups are models.
+fn has_models(method: &Method) -> bool {
+    method.kind().cells == Some(CellShape::Model)
+}
+
 impl Config {
-    /// Refuses a run whose test cannot serve its method's clusters.
+    /// Refuses a run whose test cannot serve its method's clusters, or whose fragments may lie off their models.
     ///
     /// # Errors
     /// Names both.
     pub fn check_case(&self) -> Result<(), String> {
+        if self.msaa > 1 && self.marking == Marking::Geometry && self.methods.first().is_some_and(has_models)
+        {
+            return Err(format!(
+                "marking: from geometry, fragments of {} samples are shaded at the centre of their pixel, which may lie off the \
+                 model whose lights {} looks up: use depth",
+                self.msaa, self.methods[0]
+            ));
+        }
         match (self.methods.first(), self.test.first()) {
+            (Some(method), Some(Test::Named(test))) if has_models(method) && *test != SphereTest::Exact => {
+                Err(format!(
+                    "test: {method} tests lights against the boxes of models, by `exact` alone: leave `{test}` out, or \
+                     exclude the run"
+                ))
+            }
             (Some(method), Some(Test::Named(SphereTest::Box))) if !has_boxes(method) => Err(format!(
                 "test: the clusters of {method} are no boxes: test them with `exact`, or exclude the run"
             )),
@@ -142,11 +168,33 @@ mod tests {
     }
 
     #[test]
+    fn fragments_lie_on_their_models() {
+        let refused = |method: &str, msaa, marking| {
+            let config = Config { msaa, marking, ..config(&[method], &["auto"]) };
+            config.cases()[0].check_case().err()
+        };
+        assert!(refused("m", 4, Marking::Geometry).unwrap().contains("use depth"));
+        for (method, msaa, marking) in
+            [("m", 4, Marking::Depth), ("m", 1, Marking::Geometry), ("g-20", 4, Marking::Geometry)]
+        {
+            assert_eq!(refused(method, msaa, marking), None, "{method} {msaa} {marking:?}");
+        }
+    }
+
+    #[test]
     fn boxes_serve_boxes_alone() {
         let refused = |method: &str| config(&[method], &["box"]).cases()[0].check_case().err();
         assert_eq!(refused("encl-ortho-4"), None);
         assert_eq!(refused("all-lights"), None);
         assert!(refused("encl-persp-64").unwrap().contains("encl-persp-64 are no boxes"));
         assert!(refused("indi-displ-64-32").is_some());
+        assert_eq!(refused("g-20"), None);
+        for test in ["box", "hs", "sat-n"] {
+            let refused = config(&["m"], &[test]).cases()[0].check_case().unwrap_err();
+            assert!(refused.contains("`exact` alone") && refused.contains(test), "{refused}");
+        }
+        for test in ["auto", "exact"] {
+            assert_eq!(ways(&config(&["m"], &[test])), ["m brute exact"]);
+        }
     }
 }

@@ -203,7 +203,7 @@ settings! {
         told("marking from")
     }
     /// Which clusters get light lists: `visible` (those that hold a fragment, which marking finds) or `all` of the grid, with
-    /// nothing marked; in world grids (method g) it is always all. Of several, with commas between, each is a run of every
+    /// nothing marked; of methods g and m it is always all. Of several, with commas between, each is a run of every
     /// other method.
     clusters: Vec<Clusters> = vec![Clusters::Visible], Run {
         arg(long, value_enum, value_name = "LIST", value_delimiter = ',')
@@ -223,8 +223,8 @@ settings! {
     }
     /// What decides whether a light meets a cluster: `hs` (half spaces), `sat-` with letters (no separating axis among
     /// e: edges, n: to the nearest vertex, p: normals, v: to all vertices), `hs+sat-n` and the like, `exact`, `box`
-    /// (orthographic clusters only), or `auto`: hs in perspective grids, box in orthographic ones. Of several, with
-    /// commas between, each is a run of every method.
+    /// (orthographic clusters only), or `auto`: hs in perspective grids, box in orthographic ones, exact for models, which take
+    /// no other. Of several, with commas between, each is a run of every method.
     test: Vec<Test> = vec![Test::Auto], Run {
         arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::test)
         serde(default, deserialize_with = "de::ways")

@@ -34,24 +34,37 @@ pub fn assign(
     epsilon: f64,
 ) -> LightLists {
     let volumes: Vec<_> = lights.iter().map(|light| volume_of_light(grid, light)).collect();
-    let (mut lengths, mut indices, mut borderline) = (Vec::new(), Vec::new(), Vec::new());
-    for &cluster in visible {
-        let cell = CellTest::new(test, grid, grid.cluster_at(cluster));
-        let before = indices.len();
-        let mut close = Vec::new();
-        for (light, volume) in (0u32..).zip(&volumes) {
-            let margin = cell.margin(volume);
-            if margin >= 0.0 {
-                indices.push(light);
+    let cells = visible.iter().map(|&cluster| CellTest::new(test, grid, grid.cluster_at(cluster)));
+    LightLists::by_margin(cells, &volumes, epsilon, CellTest::margin)
+}
+
+impl LightLists {
+    /// The lists of groups, each of the lights whose `margin` to it, in metres, is at least 0; one below `epsilon` is
+    /// borderline.
+    pub fn by_margin<G, L>(
+        groups: impl Iterator<Item = G>,
+        lights: &[L],
+        epsilon: f64,
+        margin: impl Fn(&G, &L) -> f64,
+    ) -> Self {
+        let (mut lengths, mut indices, mut borderline) = (Vec::new(), Vec::new(), Vec::new());
+        for group in groups {
+            let before = indices.len();
+            let mut close = Vec::new();
+            for (number, light) in (0u32..).zip(lights) {
+                let margin = margin(&group, light);
+                if margin >= 0.0 {
+                    indices.push(number);
+                }
+                if margin.abs() < epsilon {
+                    close.push(number);
+                }
             }
-            if margin.abs() < epsilon {
-                close.push(light);
-            }
+            lengths.push((indices.len() - before) as u32);
+            borderline.push(close);
         }
-        lengths.push((indices.len() - before) as u32);
-        borderline.push(close);
+        Self { offsets: scan(&lengths), indices, borderline }
     }
-    LightLists { offsets: scan(&lengths), indices, borderline }
 }
 
 /// What a light reaches, in the space of `grid`; without the slack that covers the device's rounding.

@@ -53,7 +53,7 @@ pub fn look_at_frame(
 ) -> Result<CountedFrame> {
     let resolution = engine.resolution();
     let images = image_buffers(session, resolution, view_names.map_or(0, <[String]>::len))?;
-    let has_lists = engine.method().has_lists();
+    let (has_lists, sharing) = (engine.method().has_lists(), engine.method().kind().sharing);
     let mut look_closer = |r: &mut Recorder, frame: &Frame| {
         if has_lists {
             (0..frame.clusterings.len()).for_each(|c| mark::count_fragments(r, frame, c));
@@ -67,7 +67,7 @@ pub fn look_at_frame(
     let counts = read_counts(engine, session, plan, (lights.list.len() as u32, time_s), lists)?;
     let views = images.iter().zip(view_names.unwrap_or_default()).zip(plan.views.iter().enumerate());
     let pixels = views.map(|((buffer, name), (number, view))| ViewPixels {
-        dimensions: plan.grid_of(engine.method(), number).map_or([0; 3], |grid| grid.dimensions),
+        dimensions: engine.dimensions(sharing.clustering_of(number)),
         ..view_pixels(buffer, name, view, resolution)
     });
     Ok(CountedFrame { pixels: pixels.collect(), counts })
@@ -100,7 +100,7 @@ fn read_counts(
         counts.lights_per_fragment.push(read.lights_per_fragment());
         if clustered {
             let capacity = engine.capacities().light_indices;
-            counts.clusterings.push(read.clustering(plan.grids[c].dimensions, capacity));
+            counts.clusterings.push(read.clustering(engine.dimensions(c), capacity));
             lists(read.lists)?;
         }
     }

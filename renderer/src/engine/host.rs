@@ -9,7 +9,7 @@ use crate::geometry::VolumeKind;
 use crate::gpu_interface::{DrawCounts, GridData, LightData};
 use crate::gpu_scene::GpuScene;
 use crate::lights::{FrameLights, PointLight};
-use crate::methods::Surroundings;
+use crate::methods::Scenery;
 use glam::{DVec3, Vec3};
 
 impl Engine {
@@ -85,7 +85,8 @@ impl Engine {
     ) {
         let clustering = &mut self.clusterings[number];
         let GpuScene { origin, reach, bounds, .. } = session.scene;
-        let around = Surroundings { lights, scene: bounds, grid_box: self.grid_box };
+        let around =
+            Scenery { lights, scene: bounds, models: session.scene.models(), grid_box: self.grid_box };
         let placed = plan.grids.get(number).map(|grid| self.method.settled(grid, &around));
         let grid = placed.map(|grid| grid.relative_to(origin));
         let views = &plan.views[clustering.views.clone()];
@@ -100,6 +101,7 @@ impl Engine {
         };
         clustering.cluster_count = grid.map_or(0, |grid| grid.cluster_count() as u32);
         clustering.word_count = data.word_count;
+        clustering.dimensions = data.dimensions;
         clustering.host[slot][BufferName::Grid].write(0, &[data]);
         if let Some(grid) = &grid {
             grid.slice_planes(&mut self.slice_planes);

@@ -91,6 +91,8 @@ impl Engine {
     /// Buffers beyond the device's limits; shaders that do not compile.
     pub fn new(session: &mut Session, run: &Config, largest: LargestGrid, mode: Mode) -> Result<Self> {
         let chosen = Chosen::of(run, &mode);
+        chosen.check_models(session.scene.models())?;
+        let largest = chosen.largest(largest, session.scene.models());
         let sizes = chosen.sizes(run, largest, &mode);
         sizes.check(&session.context.limits)?;
         let light_bytes = (u64::from(mode.lights) * size_of::<LightData>() as u64).max(16);
@@ -133,17 +135,25 @@ impl Engine {
     /// As there.
     pub fn check(session: &mut Session, run: &Config, largest: LargestGrid, mode: &Mode) -> Result<()> {
         let chosen = Chosen::of(run, mode);
+        chosen.check_models(session.scene.models())?;
+        let largest = chosen.largest(largest, session.scene.models());
         chosen.sizes(run, largest, mode).check(&session.context.limits)?;
         session.store.pipelines(&chosen.variant(run, mode)).map(drop)
     }
 
-    /// What the buffers of an engine take, bytes, for frames of so many views.
-    pub fn bytes(run: &Config, largest: LargestGrid, mode: &Mode, views: usize) -> u64 {
+    /// What the buffers of an engine take, bytes.
+    pub fn bytes(session: &Session, run: &Config, largest: LargestGrid, mode: &Mode) -> u64 {
         let chosen = Chosen::of(run, mode);
-        let clusterings = chosen.method.kind().sharing.clusterings(views) as u64;
+        let largest = chosen.largest(largest, session.scene.models());
+        let clusterings = chosen.method.kind().sharing.clusterings(session.targets.len()) as u64;
         let slots = FRAME_SLOTS as u64;
         let lights = (slots + 1) * u64::from(mode.lights) * size_of::<LightData>() as u64;
         clusterings * chosen.sizes(run, largest, mode).bytes(slots) + lights
+    }
+
+    /// Cells of a clustering's grid along each axis, in the frame written last.
+    pub fn dimensions(&self, clustering: usize) -> [u32; 3] {
+        self.clusterings[clustering].dimensions
     }
 
     /// How it finds lights.
@@ -159,11 +169,12 @@ impl Engine {
     fn make_clusterings(&mut self, session: &Session) -> Result<()> {
         self.clusterings.clear();
         let slots = &session.frame_slots;
-        let shared: [SharedBuffer; 7] = [
+        let shared: [SharedBuffer; 8] = [
             (BufferName::Views, slots.each_ref().map(|slot| &slot.views)),
             (BufferName::DrawOrder, slots.each_ref().map(|slot| &slot.draw_order)),
             (BufferName::Lights, [&self.lights; FRAME_SLOTS]),
             (BufferName::Instances, [&session.scene.instances; FRAME_SLOTS]),
+            (BufferName::ModelBoxes, [&session.scene.model_boxes; FRAME_SLOTS]),
             (BufferName::Drawables, [&session.scene.drawables; FRAME_SLOTS]),
             (BufferName::DrawCommands, [&session.draws.commands; FRAME_SLOTS]),
             (BufferName::DrawnInstances, [&session.draws.drawn_instances; FRAME_SLOTS]),

@@ -7,6 +7,7 @@ use crate::config::Config;
 use crate::geometry::SphereTest;
 use crate::measure::Capacities;
 use crate::methods::Method;
+use crate::methods::model::MOST_ACCELERATED;
 use crate::pipelines::{Variant, lights_at_once};
 use crate::{Error, Result, geometry::Grid};
 
@@ -84,6 +85,26 @@ impl Chosen {
         // A method without lists assigns nothing.
         let assigner = if method.has_lists() { mode.assigner } else { Assigner::Brute };
         Self { method, assigner, clusters: method.listed(run.clusters[0]), test: run.test[0].of(&method) }
+    }
+
+    /// The largest grid of a run whose planned ones are at most `planned`, over a scene of so many models.
+    pub fn largest(&self, planned: LargestGrid, models: u32) -> LargestGrid {
+        let clusters = if self.method == Method::Models { models.max(1).into() } else { planned.clusters };
+        LargestGrid { clusters, ..planned }
+    }
+
+    /// Refuses more models than the way of assignment serves.
+    ///
+    /// # Errors
+    /// Says how many there are, and how many there may be.
+    pub fn check_models(&self, models: u32) -> Result<()> {
+        if self.method != Method::Models || self.assigner == Assigner::Brute || models <= MOST_ACCELERATED {
+            return Ok(());
+        }
+        Err(Error::input(format!(
+            "method {}: assignment by {} serves up to {MOST_ACCELERATED} models, and the scene has {models}: use --assign brute",
+            self.method, self.assigner
+        )))
     }
 
     /// What the shaders of the engine are specialised for.

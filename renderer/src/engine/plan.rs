@@ -3,7 +3,7 @@
 use crate::config::Config;
 use crate::geometry::Grid;
 use crate::geometry::views::View;
-use crate::methods::{Method, Surroundings};
+use crate::methods::{Method, Scenery};
 use crate::recording::Recording;
 use crate::{Error, Result, origin};
 use glam::DVec3;
@@ -21,14 +21,9 @@ pub struct FramePlan {
 }
 
 impl FramePlan {
-    /// The grid in which a view looks lights up.
-    pub fn grid_of(&self, method: Method, view: usize) -> Option<&Grid> {
-        self.grids.get(method.kind().sharing.clustering_of(view))
-    }
-
     /// The frame with its grids where they lie among its lights and geometry.
     #[must_use]
-    pub fn settled(&self, method: Method, around: &Surroundings) -> Self {
+    pub fn settled(&self, method: Method, around: &Scenery) -> Self {
         Self { grids: self.grids.iter().map(|grid| method.settled(grid, around)).collect(), ..self.clone() }
     }
 

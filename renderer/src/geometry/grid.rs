@@ -14,6 +14,8 @@ pub enum CellShape {
     Frustum,
     /// Cells are boxes along the axes.
     Box,
+    /// Groups are models, in boxes along their own axes.
+    Model,
 }
 
 /// The shape of a grid, in clustering space.

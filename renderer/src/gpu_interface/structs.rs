@@ -158,6 +158,18 @@ gpu_struct! {
 }
 
 gpu_struct! {
+    /// The box around a model, relative to the middle of the scene's box.
+    pub struct ModelBox {
+        /// Middle of the box, metres.
+        pub centre: [f32; 3],
+        /// Half the size of the box along its axes, metres.
+        pub half_extent: [f32; 3],
+        /// Axes of the box, unit and perpendicular.
+        pub axes: [[f32; 3]; 3],
+    }
+}
+
+gpu_struct! {
     /// An indirect draw, as the device takes it (VkDrawIndexedIndirectCommand).
     pub struct DrawCommand {
         /// Number of the primitive's indices.

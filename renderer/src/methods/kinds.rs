@@ -26,8 +26,9 @@ pub struct Kind {
     make: fn(&[f64]) -> Method,
 }
 
-/// Every kind of method. All serve transparent geometry, all views in stereo, and any number of samples.
-pub static KINDS: [Kind; 9] = [
+/// Every kind of method. All serve transparent geometry, all views in stereo, and any number of samples (models: where fragments
+/// run for each).
+pub static KINDS: [Kind; 10] = [
     Kind {
         name: "indi-persp",
         sizes: &["PIXELS"],
@@ -117,6 +118,17 @@ pub static KINDS: [Kind; 9] = [
         make: |sizes| Method::World(WorldGrid { cells: sizes[0] }),
     },
     Kind {
+        name: "m",
+        sizes: &[],
+        tuned: &[],
+        title: "M",
+        about: "a list for each model, as it is drawn, whatever the views",
+        sharing: Sharing::Encl,
+        lookup: "model",
+        cells: Some(CellShape::Model),
+        make: |_| Method::Models,
+    },
+    Kind {
         name: "all-lights",
         sizes: &[],
         tuned: &[],
@@ -159,7 +171,7 @@ impl Method {
     /// Sizes of the method, in the order of its name.
     pub fn sizes(&self) -> Vec<f64> {
         match self {
-            Self::AllLights => vec![],
+            Self::AllLights | Self::Models => vec![],
             Self::Grid(GridMethod { space, .. }) => space.sizes(),
             Self::World(WorldGrid { cells }) => vec![*cells],
         }
@@ -173,9 +185,11 @@ impl Method {
     /// Whether the two differ in their sizes alone.
     fn is_like(&self, other: &Self) -> bool {
         match (self, other) {
-            (Self::AllLights, Self::AllLights) | (Self::World(_), Self::World(_)) => true,
+            (Self::AllLights, Self::AllLights)
+            | (Self::World(_), Self::World(_))
+            | (Self::Models, Self::Models) => true,
             (Self::Grid(a), Self::Grid(b)) => a.is_like(b),
-            (Self::AllLights | Self::Grid(_) | Self::World(_), _) => false,
+            (Self::AllLights | Self::Grid(_) | Self::World(_) | Self::Models, _) => false,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The ways of finding the lights of a fragment. [`KINDS`] is the one table of them: name, sizes, and what each can do.
 //!
 //! A method's name is its identity everywhere: on the command line, in configurations, as run directory and as row of every
-//! table. `indi-persp-64`, `encl-ortho-4`, `indi-displ-64-32`, `tiled-16`, `g-20`, `all-lights`.
+//! table. `indi-persp-64`, `encl-ortho-4`, `indi-displ-64-32`, `tiled-16`, `g-20`, `m`, `all-lights`.
 //!
 //! ```text
 //! plan (pure, f64) -> resources -> record (passes) -> lookup/<name>.glsl (shading) -> twin (CPU)
@@ -12,6 +12,7 @@
 pub mod all_lights;
 pub mod grid;
 mod kinds;
+pub mod model;
 mod name;
 pub mod world;
 
@@ -39,16 +40,20 @@ pub enum Method {
     Grid(GridMethod),
     /// Lights are found by the cells of a grid that lies in the world, whatever the views.
     World(WorldGrid),
+    /// Lights are found by the model that a fragment is of.
+    Models,
 }
 
 /// What of a frame but its views decides where groups lie.
 #[derive(Debug, Clone, Copy)]
-pub struct Surroundings<'a> {
+pub struct Scenery<'a> {
     /// Lights of the frame.
     pub lights: &'a [PointLight],
     /// Lowest and highest corner of all geometry, metres; `None` without any.
     pub scene: Option<(DVec3, DVec3)>,
-    /// Which of the two a world grid is laid around.
+    /// How many models the scene has: instances that are drawn.
+    pub models: u32,
+    /// Which of lights and geometry a world grid is laid around.
     pub grid_box: GridBox,
 }
 
@@ -68,14 +73,16 @@ impl Method {
             Self::AllLights => Ok(vec![]),
             Self::Grid(grid) => grid::plan(grid.space, grid.sharing, views, resolution, volume),
             Self::World(grid) => Ok(vec![world::plan(grid)?]),
+            Self::Models => Ok(vec![model::plan()]),
         }
     }
 
     /// A planned grid where it lies among a frame's lights and geometry.
-    pub fn settled(&self, grid: &Grid, around: &Surroundings) -> Grid {
+    pub fn settled(&self, grid: &Grid, around: &Scenery) -> Grid {
         match self {
             Self::AllLights | Self::Grid(_) => *grid,
             Self::World(_) => world::settled(grid, around),
+            Self::Models => model::settled(around),
         }
     }
 
@@ -88,7 +95,7 @@ impl Method {
     pub fn is_apart_from_views(&self) -> bool {
         match self {
             Self::AllLights | Self::Grid(_) => false,
-            Self::World(_) => true,
+            Self::World(_) | Self::Models => true,
         }
     }
 
@@ -96,7 +103,7 @@ impl Method {
     pub fn capacities(&self, clusters: u64, listed: Clusters, first: Capacities) -> Capacities {
         match self {
             Self::AllLights => Capacities { visible_clusters: 0, light_indices: 0 },
-            Self::Grid(_) | Self::World(_) => grid::capacities(clusters, listed, first),
+            Self::Grid(_) | Self::World(_) | Self::Models => grid::capacities(clusters, listed, first),
         }
     }
 
@@ -104,7 +111,7 @@ impl Method {
     pub fn record(&self, r: &mut Recorder, frame: &Frame, lights: Lights) -> (Depth, LightLists) {
         match self {
             Self::AllLights => all_lights::record(),
-            Self::Grid(_) | Self::World(_) => grid::record(r, frame, lights),
+            Self::Grid(_) | Self::World(_) | Self::Models => grid::record(r, frame, lights),
         }
     }
 }

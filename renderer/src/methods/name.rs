@@ -1,5 +1,5 @@
 //! A method's name: the name of its kind and its sizes, as plain decimal numbers: `indi-persp-64`, `encl-ortho-0.5`,
-//! `indi-displ-64-32`, `tiled-16`, `g-20`, `all-lights`.
+//! `indi-displ-64-32`, `tiled-16`, `g-20`, `m`, `all-lights`.
 
 use super::{KINDS, Kind, Method};
 use crate::{Error, Result};
@@ -61,7 +61,7 @@ mod tests {
 
     #[test]
     fn names_read_and_print_the_same() {
-        for name in ["indi-ortho-0.5", "encl-displ-16-0.25", "tiled-12.5", "g-20", "all-lights"] {
+        for name in ["indi-ortho-0.5", "encl-displ-16-0.25", "tiled-12.5", "g-20", "m", "all-lights"] {
             assert_eq!(name.parse::<Method>().unwrap().to_string(), name);
         }
         assert_eq!("indi-persp-64.0".parse::<Method>().unwrap().to_string(), "indi-persp-64");
@@ -85,6 +85,7 @@ mod tests {
             ("tiled-8-2", "'tiled-16'"),
             ("g-0", "'g-20'"),
             ("G-8", "'g-8'"),
+            ("m-2", "'m'"),
             ("", "did you mean"),
         ] {
             let message = wrong.parse::<Method>().unwrap_err().to_string();

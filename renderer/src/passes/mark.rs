@@ -42,10 +42,10 @@ fn visit(
     pipelines: &MarkPipelines,
     (reads, writes): (BufferSet, BufferSet),
 ) {
-    let kinds = match frame.marking {
-        Marking::Depth => {
+    let kinds = match (frame.marking, &pipelines.depth) {
+        (Marking::Depth, Some(pipeline)) => {
             r.dispatch(&Dispatch {
-                pipeline: &pipelines.depth,
+                pipeline,
                 buffers: frame.buffers(clustering),
                 size: Size::pixels(frame.resolution),
                 reads,
@@ -55,7 +55,7 @@ fn visit(
             });
             &[SurfaceKind::Transparent][..]
         }
-        Marking::Geometry => &SurfaceKind::ALL[..],
+        (Marking::Depth, None) | (Marking::Geometry, _) => &SurfaceKind::ALL[..],
     };
     let draws =
         SurfaceKind::ALL.map(|kind| (kind, SurfacePipelines::One(&pipelines.geometry[kind as usize])));

@@ -18,6 +18,7 @@ pub mod list_clusters;
 pub mod mark;
 pub mod pixel_clusters;
 pub mod pixel_maps;
+mod pixel_models;
 pub mod probes;
 pub mod readback;
 pub mod resolve;

@@ -1,6 +1,7 @@
 //! What is known of each pixel of a view, for images; atemporal runs alone.
 
 use super::inputs::Frame;
+use super::pixel_models;
 use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::gpu_interface::PixelData;
 use crate::layouts::Pipeline;
@@ -35,6 +36,7 @@ pub(super) fn look_up(
     (view, clustering): (usize, usize),
     (to, offset): (&Buffer, u64),
 ) {
+    pixel_models::record(r, frame, (view, clustering));
     let declared = (LOOKED_UP, set(&[B::Pixels]));
     let dispatch =
         Dispatch::new(pipeline, frame.buffers(clustering), Size::pixels(frame.resolution), declared);

@@ -106,7 +106,8 @@ fn graphics_defines(variant: &Variant, textured: bool, output: Output) -> Define
         .defines()
         .with("CULLING", culling)
         .with("VARYINGS", varyings(textured, output))
-        .with("TEXTURES", textures(textured, output).bits());
+        .with("TEXTURES", textures(textured, output).bits())
+        .with("MODELS", u32::from(variant.has_models() && output != Output::Depth));
     match output {
         Output::Depth => defines,
         Output::Marks(_) => defines.with("COUNT_FRAGMENTS", 0),

@@ -51,6 +51,11 @@ pub fn lights_at_once(has_lists: bool, lights: u32) -> u32 {
 }
 
 impl Variant {
+    /// Whether groups are models, which fragments know and depth does not tell.
+    pub(super) fn has_models(&self) -> bool {
+        self.cells == Some(CellShape::Model)
+    }
+
     /// Whether fragments run once per sample, so that they lie where the depth buffer says.
     pub(super) fn per_sample(&self) -> bool {
         self.samples > 1 && self.marking == Marking::Depth
@@ -73,6 +78,7 @@ impl Variant {
         let space = match self.cells {
             Some(CellShape::Frustum) | None => "SPACE_PERSPECTIVE",
             Some(CellShape::Box) => "SPACE_ORTHOGRAPHIC",
+            Some(CellShape::Model) => "SPACE_MODEL",
         };
         let clusters = match self.clusters {
             Clusters::Visible => "CLUSTERS_VISIBLE",
@@ -102,7 +108,8 @@ impl Variant {
         let boxes = self.cells == Some(CellShape::Box);
         let nearest = matches!(self.test, SphereTest::Exact | SphereTest::Box);
         // Planes are cheaper than the nearest point, but for boxes.
-        let half_spaces = self.test.asks(Separators::HALF_SPACES) || nearest && !boxes;
+        let half_spaces =
+            self.test.asks(Separators::HALF_SPACES) || nearest && self.cells == Some(CellShape::Frustum);
         let [edges, nearest_vertex, normals, vertices] =
             [Separators::EDGES, Separators::NEAREST_VERTEX, Separators::NORMALS, Separators::VERTICES]
                 .map(|separators| self.test.asks(separators));
@@ -113,7 +120,7 @@ impl Variant {
             .with("TEST_SAT_P", u32::from(normals))
             .with("TEST_SAT_V", u32::from(vertices))
             .with("TEST_NEAREST", u32::from(nearest))
-            .with("TEST_BOUNDED", u32::from(self.test.is_bounded(boxes)))
+            .with("TEST_BOUNDED", u32::from(self.test.is_bounded(boxes) && !self.has_models()))
     }
 }
 

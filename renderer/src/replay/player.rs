@@ -96,7 +96,7 @@ impl<'a> Player<'a> {
 
     /// What timing a counted run takes of the device's memory, bytes.
     pub fn bytes(&self, run: &PlannedRun, counted: &Counted) -> u64 {
-        Engine::bytes(&run.config, counted.largest(), &counted.mode(false), self.session.targets.len())
+        Engine::bytes(&self.session, &run.config, counted.largest(), &counted.mode(false))
     }
 
     /// The device's own memory, bytes.

@@ -22,7 +22,7 @@ use crate::culling::Culling;
 use crate::engine::{Engine, FramePlan, LargestGrid, Mode, Session, count_frame, plan_frames};
 use crate::inputs::Inputs;
 use crate::measure::{FrameCounts, ViewPixels};
-use crate::methods::{Method, Surroundings};
+use crate::methods::{Method, Scenery};
 use crate::output::PlannedRun;
 use crate::{Error, Result};
 use camera::Camera;
@@ -182,7 +182,12 @@ fn paint(onlooker: &Onlooker, inputs: &Inputs, session: &mut Session, run: &Plan
     let lights = source.at_frame(plan.frame);
     // The picture is of the lists, which are the same however they are built.
     let mode = Mode::counting(config, lights.list.len() as u32);
-    let around = Surroundings { lights: lights.list, scene: session.scene.bounds, grid_box: config.grid_box };
+    let around = Scenery {
+        lights: lights.list,
+        scene: session.scene.bounds,
+        models: session.scene.models(),
+        grid_box: config.grid_box,
+    };
     let plan = &plan.settled(run.method, &around);
     let onlooker = Onlooker { plan, ..*onlooker };
     let mut engine = Engine::new(session, config, LargestGrid::of(std::slice::from_ref(plan)), mode)?;

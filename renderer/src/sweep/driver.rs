@@ -65,12 +65,12 @@ struct Open<'a> {
 impl Open<'_> {
     /// What is good to know before its runs are made.
     fn notes(&self) -> Result<impl Iterator<Item = String>> {
-        let Config { exr, resolution, frames, .. } = &self.part.config;
+        let Config { exr, resolution, frames, methods, .. } = &self.part.config;
         let shape = match exr.is_empty() {
             true => None,
             false => shape_note(&self.inputs.recording, frames.first, *resolution)?,
         };
-        Ok(self.inputs.rain_note().into_iter().chain(shape))
+        Ok(self.inputs.notes(methods).chain(shape))
     }
 }
 

@@ -1,7 +1,8 @@
 //! The candidates of a search: pure.
 //!
 //! Sizes go from twice the named one down to an eighth, by steps of a quarter to a half; where a method has two, by
-//! halves. Those below what makes sense are left out, but for the named ones themselves.
+//! halves. Those below what makes sense are left out, but for the named ones themselves. Of cells that are counted, a size is
+//! that of one: fewer come first.
 
 use crate::config::{Config, Exclude};
 use crate::methods::Method;
@@ -19,14 +20,18 @@ const LEAST_PIXELS: f64 = 4.0;
 /// The least size of metres.
 const LEAST_METRES: f64 = 0.25;
 
+/// Most cells along an axis.
+const MOST_CELLS: f64 = 64.0;
+
 /// Methods like `named`, of all sizes that are tried: of those alike in their other sizes, the largest first.
 pub fn ladder(named: &Method) -> Vec<Method> {
     let (kind, sizes) = (named.kind(), named.sizes());
     let parts: &[f64] = if sizes.len() > 1 { &COARSE } else { &FINE };
     let steps = kind.sizes.iter().zip(&sizes).map(|(name, &size)| {
-        let least = if *name == "PIXELS" { LEAST_PIXELS } else { LEAST_METRES };
-        let steps = parts.iter().map(move |part| size * part);
-        steps.filter(|&step| step >= least || step == size).collect::<Vec<_>>()
+        let mut steps: Vec<f64> = parts.iter().map(|&part| step(name, size, part)).collect();
+        steps.retain(|&step| makes_sense(name, step) || step == size);
+        steps.dedup();
+        steps
     });
     // The first size varies fastest.
     let products = steps.fold(vec![vec![]], |products: Vec<Vec<f64>>, steps| {
@@ -34,6 +39,20 @@ pub fn ladder(named: &Method) -> Vec<Method> {
         steps.iter().flat_map(|&step| with(step)).collect()
     });
     products.iter().map(|sizes| kind.with_sizes(sizes)).collect()
+}
+
+/// A part of a size of this name; of cells that are counted, the count whose cells are that part as wide.
+fn step(name: &str, size: f64, part: f64) -> f64 {
+    if name == "CELLS" { (size / part).round() } else { size * part }
+}
+
+/// Whether a size of this name is neither too small nor, of counts, too large.
+fn makes_sense(name: &str, size: f64) -> bool {
+    match name {
+        "CELLS" => (1.0..=MOST_CELLS).contains(&size),
+        "PIXELS" => size >= LEAST_PIXELS,
+        _ => size >= LEAST_METRES,
+    }
 }
 
 /// What a candidate shares with those that differ from it in their first size alone.
@@ -75,6 +94,8 @@ mod tests {
             ["encl-ortho-1", "encl-ortho-0.75", "encl-ortho-0.5", "encl-ortho-0.375", "encl-ortho-0.25"];
         assert_eq!(names("encl-ortho-0.5"), small);
         assert_eq!(names("tiled-2"), ["tiled-4", "tiled-2"]);
+        assert_eq!(names("g-20"), ["g-10", "g-13", "g-20", "g-27", "g-40", "g-53"]);
+        assert_eq!(names("g-1"), ["g-1", "g-2", "g-3", "g-4", "g-5", "g-8"]);
         assert_eq!(names("all-lights"), ["all-lights"]);
     }
 

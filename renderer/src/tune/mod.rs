@@ -105,7 +105,7 @@ fn tune_part(
     let recording = recording::load(&scene.recording)?;
     let frames = scene.frame_numbers(recording.frame_count())?;
     let inputs = Inputs::load_with(&scene, recording, None)?;
-    inputs.rain_note().into_iter().for_each(|note| audience.note(&note));
+    inputs.notes(&scene.methods).for_each(|note| audience.note(&note));
     // Whatever is asked for, times decide.
     let opened = Config { runs: Runs::Auto, ..scene.clone() };
     let mut timer = Timer::new((&opened, &inputs), (interrupt, audience))?;

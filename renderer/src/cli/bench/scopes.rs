@@ -43,7 +43,7 @@ pub fn run(args: Args, console: &Console) -> Result<()> {
     }
     let interrupt = Interrupt::install()?;
     let inputs = Inputs::load(&config)?;
-    inputs.rain_note().into_iter().for_each(|note| console.note(&note));
+    inputs.notes(&config.methods).for_each(|note| console.note(&note));
     let runs = config.methods.len() * config.lights_from().len();
     let progress = console.progress(frame_total(&config, &inputs.recording, runs)?);
     let watch = Watch { interrupt: interrupt.flag(), progress: &|| progress.advance() };

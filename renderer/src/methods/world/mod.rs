@@ -17,7 +17,7 @@ mod settle;
 
 pub use settle::{GridBox, settled};
 
-use super::{Method, Surroundings};
+use super::{Method, Scenery};
 use crate::geometry::views::Pose;
 use crate::geometry::{ClusterSpace, Grid};
 use crate::{Error, Result};

@@ -1,6 +1,6 @@
 //! Where the cells of a world grid lie in a frame.
 
-use super::Surroundings;
+use super::Scenery;
 use crate::geometry::views::Pose;
 use crate::geometry::{ClusterSpace, Grid};
 use crate::lights::PointLight;
@@ -29,7 +29,7 @@ type Corners = (DVec3, DVec3);
 /// `grid` where it lies among the lights and the geometry of a frame, centred in its box.
 ///
 /// Where there are no lights it lies around the scene, and the other way round. A function of these alone, not of views.
-pub fn settled(grid: &Grid, around: &Surroundings) -> Grid {
+pub fn settled(grid: &Grid, around: &Scenery) -> Grid {
     let lights = bounds(around.lights);
     let found = match around.grid_box {
         GridBox::Lights => lights.or(around.scene),

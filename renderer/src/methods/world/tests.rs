@@ -13,7 +13,7 @@ fn light(position: [f32; 3], r1: f32) -> PointLight {
 }
 
 fn placed(cells: f64, lights: &[PointLight], grid_box: GridBox) -> Grid {
-    let around = Surroundings { lights, scene: SCENE, grid_box };
+    let around = Scenery { lights, scene: SCENE, models: 0, grid_box };
     Method::World(WorldGrid { cells }).settled(&plan(WorldGrid { cells }).unwrap(), &around)
 }
 

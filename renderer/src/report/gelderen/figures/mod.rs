@@ -208,6 +208,7 @@ fn space_color(method: Method) -> Color {
     match method {
         Method::AllLights => "black",
         Method::World(_) => "sky",
+        Method::Models => "purple",
         Method::Grid(grid) => match grid.space {
             Space::Persp { .. } => "blue",
             Space::Tiled { .. } => "orange",

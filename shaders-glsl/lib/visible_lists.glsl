@@ -1,0 +1,42 @@
+// The light list of a sample's group, for every lookup by groups with lists; each says itself which group a sample is of.
+#pragma once
+
+#include "lib/visible.glsl"
+
+struct LightCursor {
+    uint next, end;
+};
+
+LightCursor list_of_visible(uint visible)
+{
+    return LightCursor(min(list_offsets[visible], grid.index_capacity),
+                       min(list_offsets[visible + 1u], grid.index_capacity));
+}
+
+const uint NO_GROUP = NO_CLUSTER;
+
+// The group of a sample, by its index.
+uint group_of_sample(ViewData view, vec2 pixel, float depth);
+
+// The lights of a sample; false where the sample's group is missing.
+bool find_lights(ViewData view, vec2 pixel, float depth, out LightCursor cursor)
+{
+    uint visible = visible_index(group_of_sample(view, pixel, depth));
+    cursor = LightCursor(0u, 0u);
+    if (visible == NO_CLUSTER)
+        return false;
+    cursor = list_of_visible(visible);
+    return true;
+}
+
+uint light_at(uint position)
+{
+    return read_index(position);
+}
+
+// Fragments that were counted in a group.
+uint fragments_of_group(uint group)
+{
+    uint visible = visible_index(group);
+    return visible == NO_CLUSTER ? 0u : visible_fragments[visible];
+}
