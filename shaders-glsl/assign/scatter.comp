@@ -30,13 +30,14 @@ void main()
     packet_numbers[thread] = number;
     fill_packet(read_volume(number));
     uint visible = group * ASSIGN_WORKGROUP + thread;
-    uvec2 met = lights_met(cell_of_visible(visible), there);
+    uint asked = visible < state.visible && holds_samples(visible) ? there : 0u;
+    uvec2 met = lights_met(visible, asked);
     if (visible >= state.visible)
         return;
     for (uint half_packet = 0u; half_packet < 2u; ++half_packet)
         for (uint bits = met[half_packet]; bits != 0u; bits &= bits - 1u)
             add_light(visible, packet_numbers[half_packet * 32u + uint(findLSB(bits))]);
 #if !WRITE_LISTS
-    count(COUNTER_INTERSECTION_TESTS, there);
+    count(COUNTER_INTERSECTION_TESTS, asked);
 #endif
 }

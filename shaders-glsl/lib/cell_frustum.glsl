@@ -1,10 +1,17 @@
-// A cell of a perspective grid: the piece of a frustum between two tangents in x and in y, and two depths.
+// A cell of a perspective grid, or what its samples take of it: the piece of a frustum between two tangents in x and in y,
+// and two depths.
 #pragma once
+
+#include "lib/measured_bounds.glsl"
 
 struct CellBounds {
     // Unit normals in the xz (left, right) and yz (bottom, top) plane, pointing inwards.
     vec2 left, right, bottom, top;
     float z_near, z_far;
+#if BOUNDS == BOUNDS_BOX
+    // Those of the cell in which the samples lie.
+    vec2 outer_left, outer_right, outer_bottom, outer_top;
+#endif
 #if TEST_SAT_E || TEST_SAT_N || TEST_SAT_P || TEST_SAT_V || TEST_NEAREST
     // Tangents of left and bottom, right and top.
     vec2 low, high;
@@ -17,24 +24,61 @@ float slice_depth(uint slice)
     return -slice_planes[min(slice, grid.dimensions.z)];
 }
 
-// What cells from one to another fill together.
-CellBounds range_bounds(uvec3 first, uvec3 last)
+// Between tangents and between depths (near, far), along z.
+CellBounds frustum_piece(vec2 low, vec2 high, vec2 ends)
 {
-    precise vec2 low = grid.origin.xy + grid.cell.xy * vec2(first.xy);
-    precise vec2 high = grid.origin.xy + grid.cell.xy * vec2(last.xy + 1u);
     CellBounds bounds;
     bounds.left = normalize(vec2(1.0, low.x));
     bounds.right = -normalize(vec2(1.0, high.x));
     bounds.bottom = normalize(vec2(1.0, low.y));
     bounds.top = -normalize(vec2(1.0, high.y));
-    bounds.z_near = slice_depth(first.z);
-    bounds.z_far = slice_depth(last.z + 1u);
+    bounds.z_near = ends.x;
+    bounds.z_far = ends.y;
 #if TEST_SAT_E || TEST_SAT_N || TEST_SAT_P || TEST_SAT_V || TEST_NEAREST
     bounds.low = low;
     bounds.high = high;
 #endif
     return bounds;
 }
+
+// What cells from one to another fill together.
+CellBounds range_bounds(uvec3 first, uvec3 last)
+{
+    precise vec2 low = grid.origin.xy + grid.cell.xy * vec2(first.xy);
+    precise vec2 high = grid.origin.xy + grid.cell.xy * vec2(last.xy + 1u);
+    return frustum_piece(low, high, vec2(slice_depth(first.z), slice_depth(last.z + 1u)));
+}
+
+// What the samples of a visible cluster take of its cell; nothing of the kind where it holds none.
+CellBounds measured_bounds(uint visible, uvec3 cell)
+{
+    CellBounds whole = range_bounds(cell, cell);
+    vec2 ends = -vec2(low_bound(visible, BOUND_AXES - 1u), high_bound(visible, BOUND_AXES - 1u));
+#if BOUNDS == BOUNDS_BOX
+    vec2 low = vec2(low_bound(visible, 0u), low_bound(visible, 1u));
+    vec2 high = vec2(high_bound(visible, 0u), high_bound(visible, 1u));
+    CellBounds bounds = frustum_piece(low, high, ends);
+    bounds.outer_left = whole.left;
+    bounds.outer_right = whole.right;
+    bounds.outer_bottom = whole.bottom;
+    bounds.outer_top = whole.top;
+    return bounds;
+#else
+    whole.z_near = ends.x;
+    whole.z_far = ends.y;
+    return whole;
+#endif
+}
+
+#if BOUNDS == BOUNDS_BOX
+// Distances from the side planes of the cell in which the samples lie.
+vec4 outer_distances(CellBounds cell, vec3 point)
+{
+    precise vec4 sides = vec4(dot(cell.outer_left, point.xz), dot(cell.outer_right, point.xz),
+                              dot(cell.outer_bottom, point.yz), dot(cell.outer_top, point.yz));
+    return sides;
+}
+#endif
 
 // Distances from the side planes: left, right, bottom, top; positive inside.
 vec4 side_distances(CellBounds cell, vec3 point)
@@ -47,7 +91,15 @@ bool within_planes(CellBounds cell, vec4 sphere)
 {
     vec4 sides = side_distances(cell, sphere.xyz);
     precise vec2 ends = vec2(cell.z_near - sphere.z, sphere.z - cell.z_far);
-    return min(min(min(sides.x, sides.y), min(sides.z, sides.w)), min(ends.x, ends.y)) >= -sphere.w;
+    bool within = min(min(min(sides.x, sides.y), min(sides.z, sides.w)), min(ends.x, ends.y)) >= -sphere.w;
+#if BOUNDS == BOUNDS_BOX
+    // Near the apex the cell's own sides may leave out what those of a part of it do not (see may_be_within_planes).
+    if (within && -sphere.z < 1.05 * sphere.w) {
+        vec4 outer = outer_distances(cell, sphere.xyz);
+        within = min(min(outer.x, outer.y), min(outer.z, outer.w)) >= -sphere.w;
+    }
+#endif
+    return within;
 }
 
 // False only where within_planes is false for every cell of the range that `range` bounds. Of two planes through the apex

@@ -1,4 +1,4 @@
-// Light against cell: what decides whether a light gets onto a cell's list. Its volume is a sphere: (centre in the
+// Light against cell, or against what the cell's samples take of it: what decides whether a light gets onto a cell's list. Its volume is a sphere: (centre in the
 // clustering camera's space, radius). The test is the variant's, put together from these parts (Enhuber sections 2.6, 3.5.2):
 //
 //   TEST_HS       half spaces: the centre lies within the cell's six planes, moved out by the radius
@@ -30,9 +30,15 @@ const float RANGE_ROUNDING = 4e-6;
 #include "lib/separating_vertices.glsl"
 #endif
 
-CellBounds cell_bounds(uvec3 cell)
+// What of a visible cluster is tested against lights, where it holds samples.
+CellBounds bounds_of_visible(uint visible)
 {
+    uvec3 cell = cell_of_linear(visible_clusters[visible]);
+#if BOUNDS == BOUNDS_CELL
     return range_bounds(cell, cell);
+#else
+    return measured_bounds(visible, cell);
+#endif
 }
 
 bool sphere_meets(CellBounds cell, vec4 sphere)

@@ -17,15 +17,10 @@ void fill_packet(LightVolume volume)
     barrier();
 }
 
-// The cell of a visible cluster, or of the last one.
-CellBounds cell_of_visible(uint visible)
+// A bit for each of the first `count` lights of the packet that meets a visible cluster; beyond all of these, the last one.
+uvec2 lights_met(uint visible, uint count)
 {
-    return cell_bounds(cell_of_linear(visible_clusters[min(visible, max(state.visible, 1u) - 1u)]));
-}
-
-// A bit for each of the first `count` lights of the packet that meets the cell.
-uvec2 lights_met(CellBounds cell, uint count)
-{
+    CellBounds cell = bounds_of_visible(min(visible, max(state.visible, 1u) - 1u));
     uvec2 met = uvec2(0u);
     [[unroll]] for (uint i = 0u; i < 32u; ++i)
         met.x |= uint(sphere_meets(cell, packet_spheres[i])) << i;
