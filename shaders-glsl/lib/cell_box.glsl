@@ -31,6 +31,12 @@ bool within_planes(CellBounds cell, vec4 sphere)
     return max(max(outside.x, outside.y), outside.z) <= sphere.w;
 }
 
+// Whether a sphere that passes the planes of a part of a cell fails those of the cell: never.
+bool beyond_cell(CellBounds cell, vec4 sphere)
+{
+    return false;
+}
+
 // False only where within_planes is false for every cell of the range that `range` bounds.
 bool may_be_within_planes(CellBounds range, vec4 sphere)
 {

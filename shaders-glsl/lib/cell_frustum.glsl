@@ -70,15 +70,18 @@ CellBounds measured_bounds(uint visible, uvec3 cell)
 #endif
 }
 
-#if BOUNDS == BOUNDS_BOX
-// Distances from the side planes of the cell in which the samples lie.
-vec4 outer_distances(CellBounds cell, vec3 point)
+// Whether a sphere that passes the planes of a part of a cell fails the sides of the cell: of two planes through the apex the
+// outer one is not always nearer to what lies behind both (see may_be_within_planes).
+bool beyond_cell(CellBounds cell, vec4 sphere)
 {
-    precise vec4 sides = vec4(dot(cell.outer_left, point.xz), dot(cell.outer_right, point.xz),
-                              dot(cell.outer_bottom, point.yz), dot(cell.outer_top, point.yz));
-    return sides;
-}
+#if BOUNDS == BOUNDS_BOX
+    precise vec4 sides = vec4(dot(cell.outer_left, sphere.xz), dot(cell.outer_right, sphere.xz),
+                              dot(cell.outer_bottom, sphere.yz), dot(cell.outer_top, sphere.yz));
+    return -sphere.z < 1.05 * sphere.w && min(min(sides.x, sides.y), min(sides.z, sides.w)) < -sphere.w;
+#else
+    return false;
 #endif
+}
 
 // Distances from the side planes: left, right, bottom, top; positive inside.
 vec4 side_distances(CellBounds cell, vec3 point)
@@ -91,15 +94,7 @@ bool within_planes(CellBounds cell, vec4 sphere)
 {
     vec4 sides = side_distances(cell, sphere.xyz);
     precise vec2 ends = vec2(cell.z_near - sphere.z, sphere.z - cell.z_far);
-    bool within = min(min(min(sides.x, sides.y), min(sides.z, sides.w)), min(ends.x, ends.y)) >= -sphere.w;
-#if BOUNDS == BOUNDS_BOX
-    // Near the apex the cell's own sides may leave out what those of a part of it do not (see may_be_within_planes).
-    if (within && -sphere.z < 1.05 * sphere.w) {
-        vec4 outer = outer_distances(cell, sphere.xyz);
-        within = min(min(outer.x, outer.y), min(outer.z, outer.w)) >= -sphere.w;
-    }
-#endif
-    return within;
+    return min(min(min(sides.x, sides.y), min(sides.z, sides.w)), min(ends.x, ends.y)) >= -sphere.w;
 }
 
 // False only where within_planes is false for every cell of the range that `range` bounds. Of two planes through the apex
