@@ -60,6 +60,8 @@ pub struct Clustering {
     pub views: Range<usize>,
     /// Clusters of this frame's grid.
     pub cluster_count: u32,
+    /// Cells of this frame's grid along each axis.
+    pub dimensions: [u32; 3],
     /// Words of visibility bits of this frame's grid.
     pub word_count: u32,
     /// Most visible clusters that fit.
@@ -99,6 +101,7 @@ impl Clustering {
             host,
             views,
             cluster_count: 0,
+            dimensions: [0; 3],
             word_count: 0,
             visible_capacity: sizes.capacities.visible_clusters,
             sets: [const { vec![] }; FRAME_SLOTS],

@@ -16,7 +16,7 @@ use graphics::Output;
 use variant::Defines;
 
 use crate::Result;
-use crate::assign::Assigner;
+use crate::assign::{Assigner, ClusterBounds};
 use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
 use crate::geometry::views::ViewSet;
@@ -39,11 +39,32 @@ pub struct ScanPipelines {
     pub apply: Arc<Pipeline>,
 }
 
+/// What is done with the cluster of every fragment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Visit {
+    /// The cluster becomes visible.
+    Mark,
+    /// The fragment is counted.
+    Count,
+    /// The cluster's bounds come to hold the fragment.
+    Bounds,
+}
+
+impl Visit {
+    fn define(self) -> &'static str {
+        match self {
+            Self::Mark => "VISIT_MARK",
+            Self::Count => "VISIT_COUNT",
+            Self::Bounds => "VISIT_BOUNDS",
+        }
+    }
+}
+
 /// Visiting the cluster of every fragment.
-pub struct MarkPipelines {
-    /// Marks clusters from the depth buffer.
+pub struct VisitPipelines {
+    /// Visits the clusters of what the depth buffer holds.
     pub depth: Arc<Pipeline>,
-    /// Mark clusters from geometry, by [`SurfaceKind`].
+    /// Visit clusters from geometry, by [`SurfaceKind`].
     pub geometry: [Arc<Pipeline>; 3],
 }
 
@@ -59,6 +80,7 @@ pub struct Pipelines {
     /// What is known of each pixel, for images.
     pub pixel_maps: Arc<Pipeline>,
     clustered: Option<ClusteredPipelines>,
+    bounds: Option<VisitPipelines>,
     accelerated: Option<AcceleratedPipelines>,
     all: Vec<Arc<Pipeline>>,
 }
@@ -77,6 +99,11 @@ impl Pipelines {
     /// The clustered methods' pipelines; only their passes ask.
     pub fn clustered(&self) -> &ClusteredPipelines {
         self.clustered.as_ref().expect("a pass of clustered methods runs in a clustered method")
+    }
+
+    /// Measures the bounds of visible clusters; only its pass asks.
+    pub fn bounds(&self) -> &VisitPipelines {
+        self.bounds.as_ref().expect("stage bounds runs where bounds are measured")
     }
 
     /// What assignment other than by brute force runs; only its passes ask.
@@ -140,6 +167,10 @@ impl PipelineStore {
     pub fn pipelines(&mut self, variant: &Variant) -> Result<Pipelines> {
         self.asked.clear();
         let clustered = variant.cells.map(|_| self.clustered(variant)).transpose()?;
+        let bounds = match variant.bounds {
+            ClusterBounds::Cell => None,
+            ClusterBounds::Depth | ClusterBounds::Box => Some(self.visit(variant, Visit::Bounds)?),
+        };
         let accelerated = match variant.assigner {
             Assigner::Brute => None,
             Assigner::Hierarchy | Assigner::Scatter => Some(self.accelerated(variant)?),
@@ -155,6 +186,7 @@ impl PipelineStore {
             shade: self.shade(variant)?,
             pixel_maps: self.compute("measure/pixel_maps.comp", &variant.defines())?,
             clustered,
+            bounds,
             accelerated,
             all: vec![],
         };
@@ -174,11 +206,15 @@ impl PipelineStore {
         Ok(shade)
     }
 
-    fn mark(&mut self, variant: &Variant, count: bool) -> Result<MarkPipelines> {
-        let output = |kind| if count { Output::Counts(kind) } else { Output::Marks(kind) };
-        let defines = variant.defines().with("COUNT_FRAGMENTS", u32::from(count));
-        Ok(MarkPipelines {
-            depth: self.compute("cluster/mark_depth.comp", &defines)?,
+    fn visit(&mut self, variant: &Variant, visit: Visit) -> Result<VisitPipelines> {
+        let defines = variant.defines().with("VISIT", visit.define());
+        let output = |kind| Output::Visits(kind, visit);
+        let from_depth = match (visit, variant.bounds) {
+            (Visit::Bounds, ClusterBounds::Depth) => "cluster/tile_depths.comp",
+            _ => "cluster/mark_depth.comp",
+        };
+        Ok(VisitPipelines {
+            depth: self.compute(from_depth, &defines)?,
             geometry: self.per_kind(variant, "cluster/mark_geometry.frag", output)?,
         })
     }

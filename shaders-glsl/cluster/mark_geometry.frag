@@ -1,9 +1,8 @@
-// Marks (or counts, see visit_cluster) the cluster of every fragment that shading will see: transparent geometry always, all geometry with
-// marking from geometry. The depth test alone decides, as in shading.
+// Marks (or what else VISIT says) the cluster of every fragment that shading will see: transparent geometry always, all
+// geometry with marking from geometry. The depth test alone decides, as in shading.
 #version 460
-#include "lib/cluster_space.glsl"
 #include "lib/fragment_position.glsl"
-#include "lib/visible.glsl"
+#include "lib/visit.glsl"
 
 layout(early_fragment_tests) in;
 
@@ -11,5 +10,5 @@ void main()
 {
     if (is_background())
         return;
-    visit_cluster(cluster_of_sample(views[push.view], fragment_pixel(), gl_FragCoord.z));
+    visit_sample(views[push.view], fragment_pixel(), gl_FragCoord.z);
 }

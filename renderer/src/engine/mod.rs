@@ -28,7 +28,7 @@ pub use mode::{LargestGrid, Mode, variant};
 pub use plan::{FramePlan, plan_frames};
 pub use session::{Session, shader_library};
 
-use crate::assign::{Assigner, Clusters, Marking};
+use crate::assign::{Assigner, ClusterBounds, Clusters, Marking};
 use crate::buffers::{BufferName, ClusteringSizes};
 use crate::clustering::{Clustering, FRAME_SLOTS, SharedBuffer, make_buffer};
 use crate::config::{Config, Scopes};
@@ -56,6 +56,7 @@ pub struct Engine {
     multiview: bool,
     marking: Marking,
     clusters: Clusters,
+    bounds: ClusterBounds,
     assigner: Assigner,
     resolution: [u32; 2],
     timed: Timed,
@@ -103,6 +104,7 @@ impl Engine {
             culling: run.culling,
             multiview: run.multiview && session.targets.len() > 1,
             clusters: chosen.clusters,
+            bounds: chosen.bounds,
             marking: run.marking,
             assigner: chosen.assigner,
             resolution: run.resolution,
@@ -232,6 +234,7 @@ impl Engine {
             sharing: self.method.kind().sharing,
             multiview: self.multiview,
             clusters: self.clusters,
+            bounds: self.bounds,
             marking: self.marking,
             assigner: self.assigner,
             shaded: self.shaded,

@@ -209,7 +209,7 @@ fn space_color(method: Method) -> Color {
         Method::AllLights => "black",
         Method::Grid(grid) => match grid.space {
             Space::Persp { .. } => "blue",
-            Space::Tiled { .. } => "orange",
+            Space::Tiled { .. } | Space::Sliced { .. } => "orange",
             Space::Ortho { .. } => "vermillion",
             Space::Displ { .. } => "green",
         },
