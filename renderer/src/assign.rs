@@ -50,6 +50,55 @@ impl FromStr for Clusters {
     }
 }
 
+/// What of a cluster is tested against lights.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Bounds {
+    /// Its cell of the grid.
+    Implicit,
+    /// What its samples take of the cell: explicit bounds (Enhuber section 3.2). A cluster without samples meets nothing.
+    Measured,
+}
+
+impl fmt::Display for Bounds {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Implicit => "implicit",
+            Self::Measured => "measured",
+        })
+    }
+}
+
+impl FromStr for Bounds {
+    type Err = String;
+
+    /// Reads what [`fmt::Display`] writes.
+    fn from_str(text: &str) -> Result<Self, String> {
+        nearest::named(text, Self::value_variants(), "choice of bounds")
+    }
+}
+
+/// What is kept of a cluster to be tested against lights.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ClusterBounds {
+    /// Nothing: the cell is tested.
+    Cell,
+    /// The depths of its samples: of tiles, whose sides the cell tells.
+    Depth,
+    /// The box of its samples.
+    Box,
+}
+
+impl ClusterBounds {
+    /// Words that are kept of a visible cluster.
+    pub fn words(self) -> u64 {
+        match self {
+            Self::Cell => 0,
+            Self::Depth => 2,
+            Self::Box => 6,
+        }
+    }
+}
+
 /// How the light lists are built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Assigner {

@@ -12,6 +12,9 @@
 //! writes with `grid`, are the depths between the slices of a perspective grid, so that a fragment's slice and the planes
 //! that lights are tested against are the same numbers, whatever a device makes of logarithms.
 //!
+//! Where bounds are measured, `views` and `grid` go to `cluster_bounds` once `visible_clusters` are there (bounds), and the
+//! lists are made from these.
+//!
 //! Where the device culls, `views`, `instances`, `drawables` and `draw_order` go to `draw_commands` and
 //! `drawn_instances` before all that (cull).
 //!
@@ -81,6 +84,11 @@ buffers! {
     VisibleClusters = buffer("visible_clusters", Owner::Clustering)
         .storage("uint visible_clusters[]")
         .sized(|s| bytes::<u32>(s.visible()));
+    /// What the samples of each visible cluster take of its cell, where that is measured: the lowest words with all bits
+    /// turned, then the highest.
+    ClusterBounds = buffer("cluster_bounds", Owner::Clustering)
+        .storage("uint cluster_bounds[]")
+        .sized(|s| bytes::<u32>(s.bound_words()));
     /// Sums of the blocks of a prefix sum.
     BlockSums = buffer("block_sums", Owner::Clustering)
         .storage("uint block_sums[]")

@@ -31,6 +31,8 @@ pub const SCAN_BLOCK: u32 = 1024;
 pub const ASSIGN_WORKGROUP: u32 = 64;
 /// Lights that a workgroup of their culling takes: a word of bits a thread.
 pub const LIGHT_BLOCK: u32 = 32 * ASSIGN_WORKGROUP;
+/// Threads of a workgroup that measures the depths of a tile.
+pub const TILE_WORKGROUP: u32 = 64;
 /// Threads of a workgroup of culling.
 pub const CULL_WORKGROUP: u32 = 64;
 /// Packets of lights along x of a dispatch; more go along y.
@@ -87,7 +89,7 @@ pub const MEASUREMENT_WORDS: u64 = 4096;
 /// How many 64-bit counters the atemporal run has: as many as [`DeviceCounts`] has fields.
 pub const COUNTER_COUNT: usize = DeviceCounts::NAMES.len();
 
-const CONSTANTS: [(&str, u32); 29] = [
+const CONSTANTS: [(&str, u32); 30] = [
     ("SET_BUFFERS", SET_BUFFERS),
     ("SET_MATERIAL", SET_MATERIAL),
     ("SET_DEPTH", SET_DEPTH),
@@ -96,6 +98,7 @@ const CONSTANTS: [(&str, u32); 29] = [
     ("SCAN_BLOCK", SCAN_BLOCK),
     ("ASSIGN_WORKGROUP", ASSIGN_WORKGROUP),
     ("LIGHT_BLOCK", LIGHT_BLOCK),
+    ("TILE_WORKGROUP", TILE_WORKGROUP),
     ("PACKET_ROW", PACKET_ROW),
     ("LIST_ROW", LIST_ROW),
     ("BLOCK_COLUMNS", BLOCK_COLUMNS),
@@ -149,12 +152,21 @@ const STRUCTS: [StructInfo; 16] = [
 ];
 
 /// Names of what shader variants choose among; the value is the position.
-const VARIANT_NAMES: [&[&str]; 5] = [
+const VARIANT_NAMES: [&[&str]; 8] = [
     &["SPACE_PERSPECTIVE", "SPACE_ORTHOGRAPHIC", "SPACE_MODEL"],
     &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS", "SCAN_DIGITS", "SCAN_GROUPS"],
     &["ASSIGN_BRUTE", "ASSIGN_HIERARCHY", "ASSIGN_SCATTER"],
     &["CLUSTERS_VISIBLE", "CLUSTERS_ALL"],
+    &[
+        "SLICES_GEOMETRIC",
+        "SLICES_SECOND_PLANE",
+        "SLICES_LINEAR",
+        "SLICES_UNIFORM_NDC",
+        "SLICES_UNIFORM_VIEW",
+    ],
     &["CULLING_CPU", "CULLING_GPU"],
+    &["BOUNDS_CELL", "BOUNDS_DEPTH", "BOUNDS_BOX"],
+    &["VISIT_MARK", "VISIT_COUNT", "VISIT_BOUNDS"],
 ];
 
 /// The part of the include that declares all of this to shaders.

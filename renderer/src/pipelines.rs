@@ -16,7 +16,7 @@ use graphics::Output;
 use variant::Defines;
 
 use crate::Result;
-use crate::assign::Assigner;
+use crate::assign::{Assigner, ClusterBounds};
 use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
 use crate::geometry::views::ViewSet;
@@ -39,11 +39,32 @@ pub struct ScanPipelines {
     pub apply: Arc<Pipeline>,
 }
 
+/// What is done with the cluster of every fragment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Visit {
+    /// The cluster becomes visible.
+    Mark,
+    /// The fragment is counted.
+    Count,
+    /// The cluster's bounds come to hold the fragment.
+    Bounds,
+}
+
+impl Visit {
+    fn define(self) -> &'static str {
+        match self {
+            Self::Mark => "VISIT_MARK",
+            Self::Count => "VISIT_COUNT",
+            Self::Bounds => "VISIT_BOUNDS",
+        }
+    }
+}
+
 /// Visiting the cluster of every fragment.
-pub struct MarkPipelines {
-    /// Marks clusters from the depth buffer; `None` where that does not tell them.
+pub struct VisitPipelines {
+    /// Visits the clusters of what the depth buffer holds; `None` where that does not tell them.
     pub depth: Option<Arc<Pipeline>>,
-    /// Mark clusters from geometry, by [`SurfaceKind`].
+    /// Visit clusters from geometry, by [`SurfaceKind`].
     pub geometry: [Arc<Pipeline>; 3],
 }
 
@@ -61,6 +82,7 @@ pub struct Pipelines {
     /// The model of each pixel, of opaque and of masked surfaces, where groups are models and all is counted.
     pub pixel_models: Option<[Arc<Pipeline>; 2]>,
     clustered: Option<ClusteredPipelines>,
+    bounds: Option<VisitPipelines>,
     accelerated: Option<AcceleratedPipelines>,
     all: Vec<Arc<Pipeline>>,
 }
@@ -79,6 +101,11 @@ impl Pipelines {
     /// The clustered methods' pipelines; only their passes ask.
     pub fn clustered(&self) -> &ClusteredPipelines {
         self.clustered.as_ref().expect("a pass of clustered methods runs in a clustered method")
+    }
+
+    /// Measures the bounds of visible clusters; only its pass asks.
+    pub fn bounds(&self) -> &VisitPipelines {
+        self.bounds.as_ref().expect("stage bounds runs where bounds are measured")
     }
 
     /// What assignment other than by brute force runs; only its passes ask.
@@ -142,6 +169,10 @@ impl PipelineStore {
     pub fn pipelines(&mut self, variant: &Variant) -> Result<Pipelines> {
         self.asked.clear();
         let clustered = variant.cells.map(|_| self.clustered(variant)).transpose()?;
+        let bounds = match variant.bounds {
+            ClusterBounds::Cell => None,
+            ClusterBounds::Depth | ClusterBounds::Box => Some(self.visit(variant, Visit::Bounds)?),
+        };
         let accelerated = match variant.assigner {
             Assigner::Brute => None,
             Assigner::Hierarchy | Assigner::Scatter => Some(self.accelerated(variant)?),
@@ -158,6 +189,7 @@ impl PipelineStore {
             pixel_maps: self.compute("measure/pixel_maps.comp", &variant.defines())?,
             pixel_models: self.pixel_models(variant)?,
             clustered,
+            bounds,
             accelerated,
             all: vec![],
         };
@@ -178,20 +210,26 @@ impl PipelineStore {
     }
 
     fn pixel_models(&mut self, variant: &Variant) -> Result<Option<[Arc<Pipeline>; 2]>> {
-        let mut of = |kind| self.graphics(variant, Some("measure/pixel_models.frag"), Output::Counts(kind));
+        let mut of = |kind| {
+            self.graphics(variant, Some("measure/pixel_models.frag"), Output::Visits(kind, Visit::Count))
+        };
         match variant.has_models() && variant.counting {
             true => Ok(Some([of(SurfaceKind::Opaque)?, of(SurfaceKind::Masked)?])),
             false => Ok(None),
         }
     }
 
-    fn mark(&mut self, variant: &Variant, count: bool) -> Result<MarkPipelines> {
-        let output = |kind| if count { Output::Counts(kind) } else { Output::Marks(kind) };
-        let defines = variant.defines().with("COUNT_FRAGMENTS", u32::from(count));
-        Ok(MarkPipelines {
+    fn visit(&mut self, variant: &Variant, visit: Visit) -> Result<VisitPipelines> {
+        let defines = variant.defines().with("VISIT", visit.define());
+        let output = |kind| Output::Visits(kind, visit);
+        let from_depth = match (visit, variant.bounds) {
+            (Visit::Bounds, ClusterBounds::Depth) => "cluster/tile_depths.comp",
+            _ => "cluster/mark_depth.comp",
+        };
+        Ok(VisitPipelines {
             depth: match variant.has_models() {
                 true => None,
-                false => Some(self.compute("cluster/mark_depth.comp", &defines)?),
+                false => Some(self.compute(from_depth, &defines)?),
             },
             geometry: self.per_kind(variant, "cluster/mark_geometry.frag", output)?,
         })

@@ -20,11 +20,12 @@ void main()
     uint there = min(grid.light_count - first, ASSIGN_WORKGROUP);
     fill_packet(read_volume(first + min(gl_LocalInvocationID.x, there - 1u)));
     uint visible = gl_GlobalInvocationID.x;
-    uvec2 met = lights_met(cell_of_visible(visible), there);
+    uint asked = visible < state.visible && holds_samples(visible) ? there : 0u;
+    uvec2 met = lights_met(visible, asked);
     if (visible >= state.visible)
         return;
 #if !WRITE_LISTS
-    count(COUNTER_INTERSECTION_TESTS, there);
+    count(COUNTER_INTERSECTION_TESTS, asked);
     if (state.masked != 0u) {
         // A packet is two words that no other thread writes.
         uint word = visible * state.mask_words + 2u * packet;

@@ -18,9 +18,9 @@ const uint TREE_CUT = 2u;
 void main()
 {
     uint visible = gl_GlobalInvocationID.x;
-    if (visible >= state.visible)
+    if (visible >= state.visible || !holds_samples(visible))
         return;
-    CellBounds cell = cell_bounds(cell_of_linear(visible_clusters[visible]));
+    CellBounds cell = bounds_of_visible(visible);
     uint lights_there = state.candidates;
     uint cut = min(TREE_CUT, grid.tree_depth - 1u);
     uint root = gl_WorkGroupID.y;

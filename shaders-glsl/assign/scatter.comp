@@ -43,11 +43,12 @@ void main()
     packet_numbers[thread] = number;
     fill_packet(read_volume(number));
     uint visible = group * ASSIGN_WORKGROUP + thread;
-    uvec2 met = lights_met(cell_of_visible(visible), there);
+    uint asked = visible < state.visible && holds_samples(visible) ? there : 0u;
+    uvec2 met = lights_met(visible, asked);
     if (visible >= state.visible)
         return;
 #if !WRITE_LISTS
-    count(COUNTER_INTERSECTION_TESTS, there);
+    count(COUNTER_INTERSECTION_TESTS, asked);
     // No other packet has these pairs: lengths grow by a packet's at once.
     if (any(notEqual(met, uvec2(0u))))
         atomicAdd(list_lengths[visible], uint(bitCount(met.x) + bitCount(met.y)));

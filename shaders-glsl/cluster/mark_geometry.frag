@@ -1,9 +1,8 @@
-// Marks (or counts, see visit_cluster) the cluster, or model, of every fragment that shading will see: transparent geometry always, all geometry with
-// marking from geometry. The depth test alone decides, as in shading.
+// Marks (or what else VISIT says) the cluster, or model, of every fragment that shading will see: transparent geometry always, all
+// geometry with marking from geometry. The depth test alone decides, as in shading.
 #version 460
-#include "lib/cluster_space.glsl"
 #include "lib/fragment_position.glsl"
-#include "lib/visible.glsl"
+#include "lib/visit.glsl"
 
 layout(early_fragment_tests) in;
 
@@ -11,18 +10,13 @@ layout(early_fragment_tests) in;
 #include "lib/model_of_fragment.glsl"
 #endif
 
-uint group_of_fragment()
-{
-#if MODELS
-    return model_of_fragment;
-#else
-    return cluster_of_sample(views[push.view], fragment_pixel(), gl_FragCoord.z);
-#endif
-}
-
 void main()
 {
     if (is_background())
         return;
-    visit_cluster(group_of_fragment());
+#if MODELS
+    visit_cluster(model_of_fragment, vec3(0.0));
+#else
+    visit_sample(views[push.view], fragment_pixel(), gl_FragCoord.z);
+#endif
 }

@@ -1,9 +1,11 @@
 // Marks the blocks that hold visible clusters, and finds the range of cells of all; a workgroup takes a group of clusters.
+// Those that measured bounds know to be empty are left out.
 // For scatter it also makes the group, with the range of its cells.
 #version 460
 #include "lib/blocks.glsl"
 #include "lib/cluster_space.glsl"
 #include "lib/halves.glsl"
+#include "lib/measured_bounds.glsl"
 
 layout(local_size_x = ASSIGN_WORKGROUP) in;
 
@@ -18,7 +20,7 @@ void main()
     }
     barrier();
     uint visible = gl_GlobalInvocationID.x;
-    if (visible < state.visible) {
+    if (visible < state.visible && holds_samples(visible)) {
         uvec3 cell = cell_of_linear(visible_clusters[visible]);
         mark_block(block_of(cell));
         for (uint axis = 0u; axis < 3u; ++axis) {

@@ -1,6 +1,8 @@
-// A cell of an orthographic grid: an axis-aligned box. Its edges are its normals, and each axis has a plane at both
+// A cell of an orthographic grid, or what its samples take of it: an axis-aligned box. Its edges are its normals, and each axis has a plane at both
 // ends, so half spaces, SAT-E and SAT-P are one test.
 #pragma once
+
+#include "lib/measured_bounds.glsl"
 
 struct CellBounds {
     vec3 centre, half_extent;
@@ -14,10 +16,25 @@ CellBounds range_bounds(uvec3 first, uvec3 last)
     return bounds;
 }
 
+// What the samples of a visible cluster take of its cell; nothing of the kind where it holds none.
+CellBounds measured_bounds(uint visible, uvec3 cell)
+{
+    vec3 low = vec3(low_bound(visible, 0u), low_bound(visible, 1u), low_bound(visible, 2u));
+    vec3 high = vec3(high_bound(visible, 0u), high_bound(visible, 1u), high_bound(visible, 2u));
+    precise CellBounds bounds = CellBounds(0.5 * (low + high), 0.5 * (high - low));
+    return bounds;
+}
+
 bool within_planes(CellBounds cell, vec4 sphere)
 {
     precise vec3 outside = abs(sphere.xyz - cell.centre) - cell.half_extent;
     return max(max(outside.x, outside.y), outside.z) <= sphere.w;
+}
+
+// Whether a sphere that passes the planes of a part of a cell fails those of the cell: never.
+bool beyond_cell(CellBounds cell, vec4 sphere)
+{
+    return false;
 }
 
 // False only where within_planes is false for every cell of the range that `range` bounds.

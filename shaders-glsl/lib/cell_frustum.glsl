@@ -1,10 +1,17 @@
-// A cell of a perspective grid: the piece of a frustum between two tangents in x and in y, and two depths.
+// A cell of a perspective grid, or what its samples take of it: the piece of a frustum between two tangents in x and in y,
+// and two depths.
 #pragma once
+
+#include "lib/measured_bounds.glsl"
 
 struct CellBounds {
     // Unit normals in the xz (left, right) and yz (bottom, top) plane, pointing inwards.
     vec2 left, right, bottom, top;
     float z_near, z_far;
+#if BOUNDS == BOUNDS_BOX
+    // Those of the cell in which the samples lie.
+    vec2 outer_left, outer_right, outer_bottom, outer_top;
+#endif
 #if TEST_SAT_E || TEST_SAT_N || TEST_SAT_P || TEST_SAT_V || TEST_NEAREST
     // Tangents of left and bottom, right and top.
     vec2 low, high;
@@ -17,23 +24,63 @@ float slice_depth(uint slice)
     return -slice_planes[min(slice, grid.dimensions.z)];
 }
 
-// What cells from one to another fill together.
-CellBounds range_bounds(uvec3 first, uvec3 last)
+// Between tangents and between depths (near, far), along z.
+CellBounds frustum_piece(vec2 low, vec2 high, vec2 ends)
 {
-    precise vec2 low = grid.origin.xy + grid.cell.xy * vec2(first.xy);
-    precise vec2 high = grid.origin.xy + grid.cell.xy * vec2(last.xy + 1u);
     CellBounds bounds;
     bounds.left = normalize(vec2(1.0, low.x));
     bounds.right = -normalize(vec2(1.0, high.x));
     bounds.bottom = normalize(vec2(1.0, low.y));
     bounds.top = -normalize(vec2(1.0, high.y));
-    bounds.z_near = slice_depth(first.z);
-    bounds.z_far = slice_depth(last.z + 1u);
+    bounds.z_near = ends.x;
+    bounds.z_far = ends.y;
 #if TEST_SAT_E || TEST_SAT_N || TEST_SAT_P || TEST_SAT_V || TEST_NEAREST
     bounds.low = low;
     bounds.high = high;
 #endif
     return bounds;
+}
+
+// What cells from one to another fill together.
+CellBounds range_bounds(uvec3 first, uvec3 last)
+{
+    precise vec2 low = grid.origin.xy + grid.cell.xy * vec2(first.xy);
+    precise vec2 high = grid.origin.xy + grid.cell.xy * vec2(last.xy + 1u);
+    return frustum_piece(low, high, vec2(slice_depth(first.z), slice_depth(last.z + 1u)));
+}
+
+// What the samples of a visible cluster take of its cell; nothing of the kind where it holds none.
+CellBounds measured_bounds(uint visible, uvec3 cell)
+{
+    CellBounds whole = range_bounds(cell, cell);
+    vec2 ends = -vec2(low_bound(visible, BOUND_AXES - 1u), high_bound(visible, BOUND_AXES - 1u));
+#if BOUNDS == BOUNDS_BOX
+    vec2 low = vec2(low_bound(visible, 0u), low_bound(visible, 1u));
+    vec2 high = vec2(high_bound(visible, 0u), high_bound(visible, 1u));
+    CellBounds bounds = frustum_piece(low, high, ends);
+    bounds.outer_left = whole.left;
+    bounds.outer_right = whole.right;
+    bounds.outer_bottom = whole.bottom;
+    bounds.outer_top = whole.top;
+    return bounds;
+#else
+    whole.z_near = ends.x;
+    whole.z_far = ends.y;
+    return whole;
+#endif
+}
+
+// Whether a sphere that passes the planes of a part of a cell fails the sides of the cell: of two planes through the apex the
+// outer one is not always nearer to what lies behind both (see may_be_within_planes).
+bool beyond_cell(CellBounds cell, vec4 sphere)
+{
+#if BOUNDS == BOUNDS_BOX
+    precise vec4 sides = vec4(dot(cell.outer_left, sphere.xz), dot(cell.outer_right, sphere.xz),
+                              dot(cell.outer_bottom, sphere.yz), dot(cell.outer_top, sphere.yz));
+    return -sphere.z < 1.05 * sphere.w && min(min(sides.x, sides.y), min(sides.z, sides.w)) < -sphere.w;
+#else
+    return false;
+#endif
 }
 
 // Distances from the side planes: left, right, bottom, top; positive inside.

@@ -11,7 +11,7 @@ uint group_of_sample(ViewData view, vec2 pixel, float depth)
 }
 
 // Position of a sample in the clustering camera's space, also of a camera that only looks.
-vec3 clustering_position(ViewData view, vec2 pixel, float depth)
+vec3 position_seen(ViewData view, vec2 pixel, float depth)
 {
     vec4 world = view.world_from_view * vec4(view_position(view, pixel, depth), 1.0);
     return (grid.clustering_from_world * world).xyz;

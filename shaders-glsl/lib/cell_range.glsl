@@ -54,8 +54,8 @@ CellRange cells_near(LightVolume volume)
 {
     vec4 sphere = bounding_sphere(volume);
     float depth = -sphere.z;
-    vec2 ends = max(vec2(depth - sphere.w, depth + sphere.w) / grid.origin.z, 1e-3);
-    vec2 slices = log2(ends) * grid.scale.z;
+    vec2 ends = vec2(depth - sphere.w, depth + sphere.w) / grid.origin.z;
+    vec2 slices = vec2(clamped_slice_coordinate(ends.x), clamped_slice_coordinate(ends.y));
     ivec2 x = cells_across(sphere.x, depth, sphere.w, 0u);
     ivec2 y = cells_across(sphere.y, depth, sphere.w, 1u);
     ivec2 z = cells_between(slices.x, slices.y, 1e-4 * grid.scale.z, grid.dimensions.z);

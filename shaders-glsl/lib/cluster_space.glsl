@@ -5,6 +5,7 @@
 #pragma once
 
 #include "generated/gpu_interface.glsl"
+#include "lib/slices.glsl"
 
 // View-space position of a sample. `pixel` counts from the top left, in pixels; `depth` is reversed (1 near, 0 far).
 vec3 view_position(ViewData view, vec2 pixel, float depth)
@@ -21,7 +22,7 @@ vec3 cluster_coordinates(vec3 position)
 {
 #if SPACE == SPACE_PERSPECTIVE
     precise vec2 tangent = position.xy / -position.z;
-    precise vec3 coordinates = vec3((tangent - grid.origin.xy) * grid.scale.xy, log2(-position.z / grid.origin.z) * grid.scale.z);
+    precise vec3 coordinates = vec3((tangent - grid.origin.xy) * grid.scale.xy, slice_coordinate(-position.z / grid.origin.z));
 #else
     precise vec3 coordinates = (position - grid.origin) * grid.scale;
 #endif
@@ -30,8 +31,8 @@ vec3 cluster_coordinates(vec3 position)
 
 #if SPACE == SPACE_PERSPECTIVE
 
-// Error of a coordinate along z, in parts of itself and of slices per log2 of depth: twice what the Vulkan specification
-// grants log2 (3 ULP), the division and the product. Grids are planned so that it stays below half a slice.
+// Error of a coordinate along z, in parts of itself and of grid.scale.z: twice what the Vulkan specification grants log2
+// (3 ULP), the division and the product. Grids are planned so that it stays below half a slice.
 const float SLICE_ROUNDING = 2e-6;
 
 // The slice whose planes a depth lies between, given its coordinate: slice_planes[slice] <= depth < slice_planes[slice + 1].
@@ -62,11 +63,11 @@ uvec3 cell_of_position(vec3 position)
     return cell;
 }
 
-// Cell of a view-space position.
-uvec3 cluster_cell(ViewData view, vec3 position)
+// Position of a sample in the clustering camera's space.
+vec3 clustering_position(ViewData view, vec2 pixel, float depth)
 {
-    precise vec3 local = (view.clustering_from_view * vec4(position, 1.0)).xyz;
-    return cell_of_position(local);
+    precise vec3 local = (view.clustering_from_view * vec4(view_position(view, pixel, depth), 1.0)).xyz;
+    return local;
 }
 
 uint linear_cluster(uvec3 cell)
@@ -84,5 +85,5 @@ uvec3 cell_of_linear(uint cluster)
 // Linear cluster index of a sample.
 uint cluster_of_sample(ViewData view, vec2 pixel, float depth)
 {
-    return linear_cluster(cluster_cell(view, view_position(view, pixel, depth)));
+    return linear_cluster(cell_of_position(clustering_position(view, pixel, depth)));
 }

@@ -1,4 +1,4 @@
-// Light against cell: what decides whether a light gets onto a cell's list. Its volume is a sphere: (centre in the
+// Light against cell, or against what the cell's samples take of it: what decides whether a light gets onto a cell's list. Its volume is a sphere: (centre in the
 // clustering camera's space, radius). The test is the variant's, put together from these parts (Enhuber sections 2.6, 3.5.2):
 //
 //   TEST_HS       half spaces: the centre lies within the cell's six planes, moved out by the radius
@@ -32,9 +32,15 @@ const float RANGE_ROUNDING = 4e-6;
 #include "lib/separating_vertices.glsl"
 #endif
 
-CellBounds cell_bounds(uvec3 cell)
+// What of a visible cluster is tested against lights, where it holds samples.
+CellBounds bounds_of_visible(uint visible)
 {
+    uvec3 cell = cell_of_linear(visible_clusters[visible]);
+#if BOUNDS == BOUNDS_CELL
     return range_bounds(cell, cell);
+#else
+    return measured_bounds(visible, cell);
+#endif
 }
 
 bool sphere_meets(CellBounds cell, vec4 sphere)
@@ -66,11 +72,23 @@ bool sphere_meets(CellBounds cell, vec4 sphere)
 #endif
 }
 
+// Whether a sphere that meets what is measured of a cell is left out all the same, by the cell's own planes. Few spheres meet,
+// so that this stands apart.
+bool is_left_out(CellBounds cell, vec4 sphere)
+{
+#if TEST_HS || TEST_SAT_P
+    return beyond_cell(cell, sphere);
+#else
+    return false;
+#endif
+}
+
 // Whether a light's volume meets a cell. Every kind (VOLUME_*) lies in its bounding sphere, and a sphere is all of it, so
 // that the kind is not asked; what else some other kind asks belongs here and nowhere else.
 bool meets(CellBounds cell, LightVolume volume)
 {
-    return sphere_meets(cell, bounding_sphere(volume));
+    vec4 sphere = bounding_sphere(volume);
+    return sphere_meets(cell, sphere) && !is_left_out(cell, sphere);
 }
 
 // Whether a light may meet some cell of a range that `range` bounds.

@@ -17,20 +17,21 @@ void fill_packet(LightVolume volume)
     barrier();
 }
 
-// The cell of a visible cluster, or of the last one.
-CellBounds cell_of_visible(uint visible)
+// A bit for each of the first `count` lights of the packet that meets a visible cluster; beyond all of these, the last one.
+uvec2 lights_met(uint visible, uint count)
 {
-    return cell_bounds(cell_of_linear(visible_clusters[min(visible, max(state.visible, 1u) - 1u)]));
-}
-
-// A bit for each of the first `count` lights of the packet that meets the cell.
-uvec2 lights_met(CellBounds cell, uint count)
-{
+    CellBounds cell = bounds_of_visible(min(visible, max(state.visible, 1u) - 1u));
     uvec2 met = uvec2(0u);
     [[unroll]] for (uint i = 0u; i < 32u; ++i)
         met.x |= uint(sphere_meets(cell, packet_spheres[i])) << i;
     [[unroll]] for (uint i = 0u; i < 32u; ++i)
         met.y |= uint(sphere_meets(cell, packet_spheres[32u + i])) << i;
+#if BOUNDS == BOUNDS_BOX && SPACE == SPACE_PERSPECTIVE
+    for (uint part = 0u; part < 2u; ++part)
+        for (uint bits = met[part]; bits != 0u; bits &= bits - 1u)
+            if (is_left_out(cell, packet_spheres[32u * part + uint(findLSB(bits))]))
+                met[part] &= ~(bits & (0u - bits));
+#endif
     uint there = min(count, 32u), beyond = max(count, 32u) - 32u;
     return met & uvec2(there == 32u ? 0xFFFFFFFFu : (1u << there) - 1u, beyond == 32u ? 0xFFFFFFFFu : (1u << beyond) - 1u);
 }

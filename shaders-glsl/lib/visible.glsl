@@ -26,15 +26,3 @@ uint visible_index(uint cluster)
     return (word & bit) != 0u && index < grid.visible_capacity ? index : NO_CLUSTER;
 #endif
 }
-
-// What the marking shaders do with the cluster of each fragment: mark it, or, once all are ranked, count the fragment.
-void visit_cluster(uint cluster)
-{
-#if COUNT_FRAGMENTS
-    uint visible = visible_index(cluster);
-    if (visible != NO_CLUSTER)
-        atomicAdd(visible_fragments[visible], 1u);
-#else
-    mark_cluster(cluster);
-#endif
-}

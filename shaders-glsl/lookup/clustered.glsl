@@ -6,7 +6,7 @@
 // The cluster of what some other camera sees, by its index in the grid; NO_GROUP outside.
 uint group_seen(ViewData view, vec2 pixel, float depth)
 {
-    vec3 local = clustering_position(view, pixel, depth);
+    vec3 local = position_seen(view, pixel, depth);
 #if SPACE == SPACE_PERSPECTIVE
     if (local.z >= 0.0)
         return NO_GROUP;

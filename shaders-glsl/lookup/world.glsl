@@ -7,5 +7,5 @@
 // The cell of what some other camera sees, by its index in the grid.
 uint group_seen(ViewData view, vec2 pixel, float depth)
 {
-    return linear_cluster(cell_of_position(clustering_position(view, pixel, depth)));
+    return linear_cluster(cell_of_position(position_seen(view, pixel, depth)));
 }

@@ -73,8 +73,12 @@ fn frames_allocate_nothing() {
             (Assigner::Hierarchy, Clusters::Visible, Culling::Cpu),
             (Assigner::Scatter, Clusters::All, Culling::Gpu),
         ] {
-            let run =
-                Config { methods: methods(&[name]), clusters: vec![clusters], culling, ..config.clone() };
+            let run = Config {
+                methods: methods(&[name]),
+                clusters: vec![clusters.into()],
+                culling,
+                ..config.clone()
+            };
             assert_eq!(asked(&run, assigner), 0, "{name} {assigner} {clusters} {culling:?}");
         }
     }

@@ -15,7 +15,7 @@ fn config(recording: &str, msaa: u32, marking: Marking) -> Config {
         resolution: [80, 48],
         msaa,
         marking,
-        clusters: vec![Clusters::Visible, Clusters::All],
+        clusters: vec![Clusters::Visible.into(), Clusters::All.into()],
         frames: FrameRange { first: 100, end: Some(581), step: 240 },
         runs: 0.into(),
         exr: ExrFrames::All,
@@ -87,7 +87,7 @@ fn stereo_in_the_hall() {
         methods: methods(&["all-lights", "indi-persp-64", "encl-ortho-4", "encl-displ-64-32"]),
         lights: vec![Lighting { count: 400, intensity: 2.0, cutoff: 0.5, r0: 0.1 }],
         frames: FrameRange { first: 300, end: Some(831), step: 530 },
-        clusters: vec![Clusters::Visible],
+        clusters: vec![Clusters::Visible.into()],
         ..config("hall-vive", 4, Marking::Depth)
     });
 }

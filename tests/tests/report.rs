@@ -200,6 +200,7 @@ fn the_page_opens_offline_draws_every_figure_and_tells_values() {
             assert!(tip.chars().any(|c| c.is_ascii_digit()), "{id} tells no value: {seen}");
         }
     }
+    assert!(seen["marks"]["analysis-times"].as_u64() > Some(0), "the analysis has bars: {seen}");
     assert!(seen["hovered"]["6.2"].as_str().unwrap().contains("Persp 64"), "{seen}");
     assert!(seen["hovered"]["6.7"].as_str().unwrap().contains("Shading"), "{seen}");
 }
@@ -219,6 +220,41 @@ fn a_second_report_equals_the_first_and_removes_what_is_outdated() {
     assert!(first == read(), "the page depends on the results alone");
     assert!(!out.path().join("figures/6.5.svg").exists());
     assert!(out.path().join("figures/6.7.svg").is_file());
+}
+
+#[test]
+fn three_numbers_of_lights_make_lines_and_rankings() {
+    let results = tempfile::tempdir().unwrap();
+    let write = |method, lights| write_run(results.path(), ["street", "bistro"], 1, method, lights);
+    let rows = |name: &str| {
+        let table = fs::read_to_string(results.path().join("report").join(name)).unwrap();
+        csv::Reader::from_reader(table.as_bytes()).records().count()
+    };
+    for (lights, have_lines) in [(100, false), (1000, false), (10_000, true)] {
+        ["indi-persp-64", "tiled-16"].into_iter().for_each(|method| write(method, lights));
+        assert!(report(&[results.path().as_ref()]).status.success());
+        for (file, is_there) in [
+            ("figures/analysis-times.svg", true),
+            ("figures/analysis-lines.svg", have_lines),
+            ("figures/analysis-slopes.csv", have_lines),
+            ("analysis-lines.csv", have_lines),
+        ] {
+            assert_eq!(
+                results.path().join("report").join(file).is_file(),
+                is_there,
+                "{lights} lights: {file}"
+            );
+        }
+    }
+    assert_eq!((rows("analysis-times.csv"), rows("analysis-lines.csv")), (2 * 3, 2 * 3));
+    // Each of the two by SD and RSD, at three numbers of lights, and by slope and offset of three parts.
+    assert_eq!(rows("analysis-classes.csv"), 2 * (2 + 3 + 2 * 3));
+    assert!(
+        self_test(&results.path().join("report/index.html"))["hovered"]["analysis-lines"]
+            .as_str()
+            .unwrap()
+            .contains("Tiled 16, line")
+    );
 }
 
 /// Rewrites a file of a run.

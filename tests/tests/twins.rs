@@ -150,7 +150,7 @@ fn compare_lists(method: &str, clusters: Clusters) {
 fn config_of_lists(method: &str, clusters: Clusters) -> Config {
     Config {
         methods: vec![method.parse().unwrap()],
-        clusters: vec![clusters],
+        clusters: vec![clusters.into()],
         resolution: [160, 90],
         lights: vec![Lighting::with_count(2000)],
         frames: FrameRange { first: 300, end: Some(301), step: 1 },
@@ -160,7 +160,8 @@ fn config_of_lists(method: &str, clusters: Clusters) -> Config {
 }
 
 fn compare_lists_of(config: Config) {
-    let (method, clusters) = (config.methods[0], config.clusters[0]);
+    let method = config.methods[0];
+    let clusters = config.clusters[0].of(&method);
     let inputs = Inputs::load(&config).unwrap();
     let lights = inputs.light_source(&config.lights_of_run()).unwrap().at_frame(300).list.to_vec();
     let (plan, test) = (plan(&config), config.test[0].of(&config.methods[0]));

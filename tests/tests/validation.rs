@@ -12,7 +12,7 @@ fn silent(recording: &str, msaa: u32, marking: Marking) {
         resolution: [48, 32],
         msaa,
         marking,
-        clusters: vec![Clusters::Visible, Clusters::All],
+        clusters: vec![Clusters::Visible.into(), Clusters::All.into()],
         scopes: Scopes::Frame,
         frames: FrameRange { first: 290, end: Some(320), step: 10 },
         runs: 1.into(),

@@ -1,7 +1,7 @@
 //! Sizes of a clustering's buffers, and what a device must hold and dispatch for them: pure.
 
 use super::{BufferInfo, BufferName, Owner};
-use crate::assign::{self, Assigner, Clusters, light_blocks};
+use crate::assign::{self, Assigner, ClusterBounds, Clusters, light_blocks};
 use crate::gpu_interface::{ASSIGN_WORKGROUP, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS};
 use crate::measure::Capacities;
 use crate::vk::{Limits, texel_bytes};
@@ -14,6 +14,8 @@ pub struct ClusteringSizes {
     pub clusters: u64,
     /// Which clusters get lists.
     pub listed: Clusters,
+    /// What is kept of a cluster to be tested against lights.
+    pub bounds: ClusterBounds,
     /// Depths between slices of a perspective grid (most of all frames).
     pub slice_planes: u32,
     /// Lights (most of all frames).
@@ -40,6 +42,11 @@ impl ClusteringSizes {
     /// Visible clusters that fit.
     pub(super) fn visible(&self) -> u64 {
         self.capacities.visible_clusters.into()
+    }
+
+    /// Words of the bounds of visible clusters.
+    pub(super) fn bound_words(&self) -> u64 {
+        self.bounds.words() * self.visible()
     }
 
     /// Entries of the offsets of lists: where each begins, and where the last one ends; none without clusters.
@@ -191,6 +198,7 @@ mod tests {
         ClusteringSizes {
             clusters: 1 << 20,
             listed: Clusters::Visible,
+            bounds: ClusterBounds::Cell,
             slice_planes: 65,
             lights: 10_000,
             capacities,

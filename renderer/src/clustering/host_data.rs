@@ -55,15 +55,11 @@ pub fn grid_data(
 ) -> GridData {
     let dimensions = DVec3::from_array(grid.dimensions.map(f64::from));
     let (lowest, cell, reach) = match grid.space {
-        ClusterSpace::Perspective { frustum: f, ratio } => (
-            DVec3::new(f.x0, f.y0, -f.z1),
-            DVec3::new(
-                (f.x1 - f.x0) / dimensions.x,
-                (f.y1 - f.y0) / dimensions.y,
-                ratio.ln_1p() / std::f64::consts::LN_2,
-            ),
-            -f.z0,
-        ),
+        ClusterSpace::Perspective { frustum: f, slices } => {
+            let [origin, step] = slices.on_device();
+            let cell = DVec3::new((f.x1 - f.x0) / dimensions.x, (f.y1 - f.y0) / dimensions.y, step);
+            (DVec3::new(f.x0, f.y0, origin), cell, -f.z0)
+        }
         ClusterSpace::Orthographic { min, max } => {
             (min, (max - min) / dimensions, min.abs().max(max.abs()).max_element())
         }

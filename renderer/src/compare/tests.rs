@@ -52,7 +52,7 @@ impl Fixture {
         let mut manifest = serde_json::json!({
             "format": "manylight.run/1", "version": "0.1.0", "git_revision": "abc", "method": self.method,
             "lighting": { "count": 1000, "intensity": 100.0, "cutoff": 0.5, "r0": 0.1 },
-            "config": { "resolution": [64, 40], "msaa": 1, "marking": "depth", "attenuation": "phy", "out": self.out,
+            "config": { "methods": [self.method], "resolution": [64, 40], "msaa": 1, "marking": "depth", "attenuation": "phy", "out": self.out,
                 "assign": "brute", "test": self.test, "runs": self.runs.len() },
             "scene": { "name": "street", "sha256": self.scene_sha },
             "recording": { "name": "bistro", "sha256": "bbbbbbbbbbbb" },
@@ -139,7 +139,11 @@ fn runs_are_joined_by_test_where_a_set_has_several_and_across_tests_where_not() 
     }
     let comparison = compare(&a, &b).unwrap();
     assert_eq!(comparison.runs.len(), 1);
-    assert!(comparison.runs[0].run.ends_with(", brute, exact, visible"), "{}", comparison.runs[0].run);
+    assert!(
+        comparison.runs[0].run.ends_with(", brute, exact, visible, implicit, geometric"),
+        "{}",
+        comparison.runs[0].run
+    );
     assert!(comparison.missing_in_a[0].contains("sat-n") && comparison.missing_in_b[0].contains("brute, hs"));
 }
 

@@ -1,7 +1,9 @@
 //! The axes of the product that runs are made of. Each is one entry of [`AXES`]: the product, the rules of `exclude`
 //! with their schema, names of run directories, the closing table's columns and what reports tell runs apart by follow.
 
-use super::{Config, Lighting, LightsFrom, SceneEntry};
+use super::{Choice, Config, Lighting, LightsFrom, Own, SceneEntry};
+use crate::assign::{Bounds, Clusters};
+use crate::geometry::{SliceLaw, SphereTest};
 use crate::methods::Method;
 use std::fmt;
 use std::path::Path;
@@ -55,7 +57,7 @@ pub struct Axis {
 }
 
 /// Every axis: of the product the first varies slowest.
-pub static AXES: [Axis; 7] = [
+pub static AXES: [Axis; 9] = [
     Axis {
         name: "scene",
         description: "The scene as the configuration has it, or its file's name without extension; `*` stands for any \
@@ -131,28 +133,58 @@ pub static AXES: [Axis; 7] = [
         column: "test",
         role: Role::Way,
         values: Values::Names,
-        applies: Method::has_lists,
+        applies: SphereTest::applies,
         count: |config| config.test.len(),
         split: |config| {
-            let method = config.methods[0];
-            each(&config.test, |test| Config { test: vec![test.resolved(&method)], ..config.clone() })
+            each(&choices(config, &config.test), |test| Config { test: vec![test], ..config.clone() })
         },
-        called: |run| vec![names(&run.test)],
-        label: |run, _| names(&run.test),
+        called: |run| vec![names(&choices(run, &run.test))],
+        label: |run, _| names(&choices(run, &run.test)),
     },
     Axis {
         name: "clusters",
-        description: "Which clusters get lists; `*` stands for any text.",
+        description: "Which clusters get lists, `auto` as what it is for the method; `*` stands for any text.",
         column: "clusters",
         role: Role::Way,
         values: Values::Names,
-        applies: |method| method.has_lists() && !method.is_apart_from_views(),
+        applies: Clusters::applies,
         count: |config| config.clusters.len(),
         split: |config| {
-            each(&config.clusters, |clusters| Config { clusters: vec![clusters], ..config.clone() })
+            each(&choices(config, &config.clusters), |value| Config {
+                clusters: vec![value],
+                ..config.clone()
+            })
         },
-        called: |run| vec![names(&run.clusters)],
-        label: |run, _| names(&run.clusters),
+        called: |run| vec![names(&choices(run, &run.clusters))],
+        label: |run, _| names(&choices(run, &run.clusters)),
+    },
+    Axis {
+        name: "bounds",
+        description: "What of a cluster is tested against lights, `auto` as what it is for the method; `*` stands for any text.",
+        column: "bounds",
+        role: Role::Way,
+        values: Values::Names,
+        applies: Bounds::applies,
+        count: |config| config.bounds.len(),
+        split: |config| {
+            each(&choices(config, &config.bounds), |value| Config { bounds: vec![value], ..config.clone() })
+        },
+        called: |run| vec![names(&choices(run, &run.bounds))],
+        label: |run, _| names(&choices(run, &run.bounds)),
+    },
+    Axis {
+        name: "slices",
+        description: "Where slices begin, `auto` as what it is for the method; `*` stands for any text.",
+        column: "slices",
+        role: Role::Way,
+        values: Values::Names,
+        applies: SliceLaw::applies,
+        count: |config| config.slices.len(),
+        split: |config| {
+            each(&choices(config, &config.slices), |value| Config { slices: vec![value], ..config.clone() })
+        },
+        called: |run| vec![names(&choices(run, &run.slices))],
+        label: |run, _| names(&choices(run, &run.slices)),
     },
 ];
 
@@ -314,6 +346,14 @@ fn each<T: Copy>(values: &[T], with: impl Fn(T) -> Config) -> Vec<Config> {
     values.iter().map(|&value| with(value)).collect()
 }
 
+/// What they are for the method of a run; those of all methods as they are.
+fn choices<T: Own>(run: &Config, values: &[Choice<T>]) -> Vec<Choice<T>> {
+    match run.methods.as_slice() {
+        [method] => values.iter().map(|choice| choice.resolved(method)).collect(),
+        _ => values.to_vec(),
+    }
+}
+
 fn names<T: ToString>(values: &[T]) -> String {
     values.iter().map(ToString::to_string).collect::<Vec<_>>().join(",")
 }
@@ -337,78 +377,4 @@ fn lighting_name(lights: &LightsFrom, all: &[LightsFrom]) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::assign::Clusters;
-    use crate::config::{Assign, Exclude};
-    use std::collections::BTreeSet;
-
-    /// Several values on every axis.
-    fn everything() -> Config {
-        let read = |name: &str| name.parse().unwrap();
-        Config {
-            scenes: ["street=bistro", "temple=suntem"].map(|text| text.parse().unwrap()).to_vec(),
-            lights: vec![Lighting::with_count(1), Lighting::with_count(20)],
-            methods: ["indi-persp-64", "encl-ortho-4", "all-lights"].map(read).to_vec(),
-            assign: vec![Assign::Brute, Assign::Scatter],
-            test: ["auto", "hs", "exact"].map(|name| name.parse().unwrap()).to_vec(),
-            clusters: vec![Clusters::Visible, Clusters::All],
-            ..Config::default()
-        }
-    }
-
-    fn runs() -> Vec<Config> {
-        everything().by_scene().iter().flat_map(Config::cases).collect()
-    }
-
-    #[test]
-    fn the_product_has_every_combination_that_differs_once() {
-        // Of three tests, Persp has its own under two names and Ortho has not; the third method knows no ways.
-        assert_eq!(runs().len(), 2 * 2 * (2 * 2 * 2 + 2 * 3 * 2 + 1));
-        for run in runs() {
-            assert_eq!((run.by_scene(), run.cases()), (vec![run.clone()], vec![run]));
-        }
-    }
-
-    #[test]
-    fn runs_of_a_scene_have_names_and_labels_of_their_own() {
-        for scene in everything().by_scene() {
-            let runs = scene.cases();
-            let names: BTreeSet<String> = runs.iter().map(|run| run_name(run, &scene)).collect();
-            let labels: BTreeSet<String> =
-                runs.iter().map(|run| format!("{:?}", Labels::new(run, &scene))).collect();
-            assert_eq!((names.len(), labels.len()), (runs.len(), runs.len()));
-        }
-    }
-
-    #[test]
-    fn every_axis_has_a_value_where_it_applies() {
-        for axis in &AXES {
-            for run in runs() {
-                let value = axis.value(&run);
-                assert_eq!(value.is_empty(), !(axis.applies)(&run.methods[0]), "{axis:?}: {value}");
-            }
-        }
-        let value = |name: &str| Axis::named(name).unwrap().value(&runs()[0]);
-        let known = ["scene", "recording", "lights", "method", "test"].map(value);
-        assert_eq!(known, ["street", "bistro", "1", "indi-persp-64", "hs"]);
-    }
-
-    #[test]
-    fn a_rule_of_every_axis_leaves_out_the_runs_it_names_alone() {
-        let of = |axis: &Axis, run: &Config| match (axis.applies)(&run.methods[0]) {
-            true => (axis.called)(run),
-            false => vec![],
-        };
-        for axis in &AXES {
-            let values: BTreeSet<String> = runs().iter().flat_map(|run| of(axis, run)).collect();
-            assert!(values.len() > 1, "{axis:?}");
-            for value in values {
-                let rule: Exclude = format!("{}={value}", axis.name).parse().unwrap();
-                for run in runs() {
-                    assert_eq!(rule.matches(&run), of(axis, &run).contains(&value), "{rule} {}", run.scene);
-                }
-            }
-        }
-    }
-}
+mod tests;

@@ -1,42 +1,97 @@
-//! What the configuration of one run says: the way of assignment and the test.
+//! What the configuration of one run says, where a method's name may say it too: the test, which clusters get lists, bounds,
+//! slices; and the way of assignment.
 
 use super::{Assign, Config, LightsFrom};
-use crate::assign::Marking;
-use crate::geometry::{CellShape, SphereTest};
+use crate::assign::{Bounds, Clusters, Marking};
+use crate::geometry::{CellShape, SliceLaw, SphereTest};
 use crate::methods::Method;
 use crate::nearest;
 use clap::ValueEnum;
 use std::fmt;
 use std::str::FromStr;
 
-/// What decides whether a light gets onto a cluster's list.
+/// What a run does, or `auto`: what is its method's own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Test {
-    /// The thesis's own: half spaces in perspective grids, the box in orthographic ones.
+pub enum Choice<T> {
+    /// The method's own.
     Auto,
-    /// The test of this name.
-    Named(SphereTest),
+    /// This, whatever the method.
+    Named(T),
 }
 
-impl Test {
-    /// The test that is asked of the clusters of `method`; a method without clusters asks nothing.
-    pub fn of(self, method: &Method) -> SphereTest {
+/// What decides whether a light gets onto a cluster's list.
+pub type Test = Choice<SphereTest>;
+
+/// What every method has of its own.
+pub trait Own: Copy {
+    /// What `method` has where nothing else is said.
+    fn own(method: &Method) -> Self;
+
+    /// Whether `method` asks for it at all.
+    fn applies(method: &Method) -> bool {
+        method.has_lists()
+    }
+}
+
+impl Own for SphereTest {
+    /// The thesis's own: half spaces in perspective grids, the box in orthographic ones; that of models is exact.
+    fn own(method: &Method) -> Self {
+        match method.kind().cells {
+            Some(CellShape::Model) => Self::Exact,
+            Some(CellShape::Box) => Self::Box,
+            Some(CellShape::Frustum) | None => Self::HALF_SPACES,
+        }
+    }
+}
+
+impl Own for Clusters {
+    fn own(method: &Method) -> Self {
+        method.own_clusters()
+    }
+
+    fn applies(method: &Method) -> bool {
+        method.has_lists() && !method.is_apart_from_views()
+    }
+}
+
+impl Own for Bounds {
+    fn own(method: &Method) -> Self {
+        method.own_bounds()
+    }
+
+    fn applies(method: &Method) -> bool {
+        method.has_lists() && !method.is_apart_from_views()
+    }
+}
+
+impl Own for SliceLaw {
+    fn own(_: &Method) -> Self {
+        Self::Geometric
+    }
+
+    fn applies(method: &Method) -> bool {
+        method.has_slices()
+    }
+}
+
+impl<T: Own> Choice<T> {
+    /// What runs of `method` do.
+    pub fn of(self, method: &Method) -> T {
         match self {
-            _ if has_models(method) => SphereTest::Exact,
-            Self::Named(test) => test,
-            Self::Auto if has_boxes(method) => SphereTest::Box,
-            Self::Auto => SphereTest::HALF_SPACES,
+            Self::Named(named) => named,
+            Self::Auto => T::own(method),
         }
     }
 
-    /// The test by its name for the clusters of `method`; a method without clusters has none. One that the method does not
-    /// serve stays as it is, to be refused.
+    /// The same by its name for `method`; of a method that does not ask for it, `auto`.
     pub fn resolved(self, method: &Method) -> Self {
-        match self {
-            _ if !method.has_lists() => Self::Auto,
-            Self::Named(_) => self,
-            Self::Auto => Self::Named(self.of(method)),
-        }
+        if T::applies(method) { Self::Named(self.of(method)) } else { Self::Auto }
+    }
+}
+
+impl<T> From<T> for Choice<T> {
+    fn from(named: T) -> Self {
+        Self::Named(named)
     }
 }
 
@@ -84,20 +139,20 @@ impl Config {
     }
 }
 
-impl fmt::Display for Test {
+impl<T: fmt::Display> fmt::Display for Choice<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Auto => f.write_str("auto"),
-            Self::Named(test) => test.fmt(f),
+            Self::Named(named) => named.fmt(f),
         }
     }
 }
 
-impl FromStr for Test {
-    type Err = String;
+impl<T: FromStr> FromStr for Choice<T> {
+    type Err = T::Err;
 
     /// Reads what [`fmt::Display`] writes.
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, T::Err> {
         if text == "auto" { Ok(Self::Auto) } else { text.parse().map(Self::Named) }
     }
 }

@@ -21,7 +21,7 @@ mod values;
 mod tests;
 
 pub use axes::{AXES, Axis, Labels, Role, run_name};
-pub use cases::Test;
+pub use cases::{Choice, Own, Test};
 pub use declare::{Bearing, Setting};
 pub use exclude::Exclude;
 pub use runs::Runs;

@@ -1,8 +1,8 @@
 //! The JSON Schema of configuration files, generated from [`Layer`].
 
 use super::values::MAX_RESOLUTION;
-use super::{Assign, Config, Layer};
-use crate::assign::Clusters;
+use super::{Assign, Choice, Config, Layer};
+use crate::assign::{Bounds, Clusters};
 use crate::lights::Attenuation;
 use crate::methods::{KINDS, Kind};
 use clap::ValueEnum;
@@ -91,7 +91,24 @@ fn one_or_several(name: &Schema) -> Schema {
 }
 
 pub(super) fn clusters(_: &mut SchemaGenerator) -> Schema {
-    names_of(Clusters::value_variants())
+    choices_of(Clusters::value_variants())
+}
+
+pub(super) fn bounds(_: &mut SchemaGenerator) -> Schema {
+    choices_of(Bounds::value_variants())
+}
+
+pub(super) fn slices(_: &mut SchemaGenerator) -> Schema {
+    one_or_several(&json_schema!({
+        "type": "string",
+        "pattern": r"^(auto|geometric|cubes|second-plane-[0-9.]+|linear|uniform-ndc|uniform-view)$",
+        "examples": ["auto", "geometric", "cubes", "second-plane-5", "linear", "uniform-ndc", "uniform-view"]
+    }))
+}
+
+fn choices_of<T: Copy + std::fmt::Display>(values: &[T]) -> Schema {
+    let named = values.iter().map(|&value| Choice::Named(value));
+    names_of(&[Choice::Auto].into_iter().chain(named).collect::<Vec<_>>())
 }
 
 pub(super) fn assign(_: &mut SchemaGenerator) -> Schema {

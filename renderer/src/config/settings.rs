@@ -3,12 +3,12 @@
 use super::declare::{Bearing, Setting, set, settings};
 use super::values::{self, de, ser};
 use super::{
-    Assign, Exclude, ExrFrames, ExrLayout, FrameRange, Runs, SceneEntry, Scopes, Test, exclude, scenes,
-    schema,
+    Assign, Choice, Exclude, ExrFrames, ExrLayout, FrameRange, Runs, SceneEntry, Scopes, Test, exclude,
+    scenes, schema,
 };
-use crate::assign::{Clusters, Marking};
+use crate::assign::{Bounds, Clusters, Marking};
 use crate::culling::Culling;
-use crate::geometry::DisplacedVolume;
+use crate::geometry::{DisplacedVolume, SliceLaw, SphereTest};
 use crate::lights::{Attenuation, GeneratorKind, LatticeBox, LightBox, LightMotion, LightSet, Lighting};
 use crate::measure::Order;
 use crate::methods::{GridBox, KINDS, Method, Sharing, Space};
@@ -202,13 +202,33 @@ settings! {
         arg(long, value_enum)
         told("marking from")
     }
-    /// Which clusters get light lists: `visible` (those that hold a fragment, which marking finds) or `all` of the grid, with
-    /// nothing marked; of methods g and m it is always all. Of several, with commas between, each is a run of every
-    /// other method.
-    clusters: Vec<Clusters> = vec![Clusters::Visible], Run {
-        arg(long, value_enum, value_name = "LIST", value_delimiter = ',')
+    /// Which clusters get light lists: `visible` (those that hold a fragment, which marking finds), `all` of the grid, with
+    /// nothing marked, or `auto`: what the method's name says, visible ones for most; of methods g and m it is always all. Of several, with commas between, each is a
+    /// run of every method.
+    clusters: Vec<Choice<Clusters>> = vec![Choice::Auto], Run {
+        arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::choice::<Clusters>)
         serde(default, deserialize_with = "de::ways")
         schemars(schema_with = "schema::clusters")
+        write(serialize_with = "ser::one_or_several")
+        check(values::check_ways)
+    }
+    /// What of a cluster is tested against lights: `implicit` (its cell of the grid), `measured` (what its samples take of that),
+    /// or `auto`: what the method's name says, implicit for most. Of several, with commas between, each is a run of every method.
+    bounds: Vec<Choice<Bounds>> = vec![Choice::Auto], Run {
+        arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::choice::<Bounds>)
+        serde(default, deserialize_with = "de::ways")
+        schemars(schema_with = "schema::bounds")
+        write(serialize_with = "ser::one_or_several")
+        check(values::check_ways)
+    }
+    /// Where the slices of perspective grids begin: `geometric`, `cubes` (about as deep as a tile is high; their number follows),
+    /// `second-plane-METRES` (the first ends there, the others are geometric), `linear` (from the eye), `uniform-ndc` (in projected
+    /// depth), `uniform-view` (from the near plane), or `auto`: geometric. Of several, with commas between, each is a run of
+    /// every method.
+    slices: Vec<Choice<SliceLaw>> = vec![Choice::Auto], Run {
+        arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::choice::<SliceLaw>)
+        serde(default, deserialize_with = "de::ways")
+        schemars(schema_with = "schema::slices")
         write(serialize_with = "ser::one_or_several")
         check(values::check_ways)
     }
@@ -226,7 +246,7 @@ settings! {
     /// (orthographic clusters only), or `auto`: hs in perspective grids, box in orthographic ones, exact for models, which take
     /// no other. Of several, with commas between, each is a run of every method.
     test: Vec<Test> = vec![Test::Auto], Run {
-        arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::test)
+        arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::choice::<SphereTest>)
         serde(default, deserialize_with = "de::ways")
         schemars(schema_with = "schema::test")
         write(serialize_with = "ser::one_or_several")

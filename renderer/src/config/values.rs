@@ -1,7 +1,7 @@
 //! Single values: how flags spell them, what is in range, how JSON carries them. Each rule is stated once
 //! here and serves flags and files alike.
 
-use super::{Lighting, SceneEntry, Test, scenes};
+use super::{Choice, Lighting, SceneEntry, scenes};
 use crate::lights::Attenuation;
 use crate::methods::Method;
 use serde::de::{Error as _, SeqAccess, Visitor};
@@ -32,7 +32,7 @@ pub(super) fn method(text: &str) -> Result<Method, String> {
 }
 
 /// Reads the name of a test of sphere against cluster.
-pub(super) fn test(text: &str) -> Result<Test, String> {
+pub(super) fn choice<T: FromStr<Err = String>>(text: &str) -> Result<Choice<T>, String> {
     text.parse()
 }
 

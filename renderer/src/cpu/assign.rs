@@ -1,7 +1,7 @@
 //! Light lists by brute force: every visible cluster against every light.
 
 use super::scan;
-use crate::geometry::{CellTest, Grid, LightVolume, SphereTest};
+use crate::geometry::{CellTest, Grid, LightVolume, MeasuredBounds, SphereTest};
 use crate::lights::PointLight;
 use glam::DVec3;
 
@@ -33,9 +33,34 @@ pub fn assign(
     test: SphereTest,
     epsilon: f64,
 ) -> LightLists {
+    let cells = visible.iter().map(|&cluster| Some(CellTest::new(test, grid, grid.cluster_at(cluster))));
+    assign_cells(cells, grid, lights, epsilon)
+}
+
+/// The same for what is measured of `visible` clusters, of which some may hold nothing: their lists are empty.
+pub fn assign_measured(
+    grid: &Grid,
+    (visible, bounds): (&[u32], &[MeasuredBounds]),
+    lights: &[PointLight],
+    test: SphereTest,
+    epsilon: f64,
+) -> LightLists {
+    let cell = |(&cluster, bounds): (&u32, &MeasuredBounds)| {
+        (!bounds.is_empty()).then(|| CellTest::measured(test, grid, grid.cluster_at(cluster), bounds))
+    };
+    assign_cells(visible.iter().zip(bounds).map(cell), grid, lights, epsilon)
+}
+
+fn assign_cells(
+    cells: impl Iterator<Item = Option<CellTest>>,
+    grid: &Grid,
+    lights: &[PointLight],
+    epsilon: f64,
+) -> LightLists {
     let volumes: Vec<_> = lights.iter().map(|light| volume_of_light(grid, light)).collect();
-    let cells = visible.iter().map(|&cluster| CellTest::new(test, grid, grid.cluster_at(cluster)));
-    LightLists::by_margin(cells, &volumes, epsilon, CellTest::margin)
+    LightLists::by_margin(cells, &volumes, epsilon, |cell, volume| {
+        cell.map_or(f64::NEG_INFINITY, |cell| cell.margin(volume))
+    })
 }
 
 impl LightLists {

@@ -193,9 +193,10 @@ fn cells_near(grid: &Grid, volume: &LightVolume, test: SphereTest, epsilon: f64)
     }
     for axis in 0..3 {
         let ends = match grid.space {
-            ClusterSpace::Perspective { frustum, ratio } if axis == 2 => {
-                let slice = |depth: f64| (depth / frustum.near()).max(1e-3).ln() / ratio.ln_1p();
-                let error = 1e-4 * std::f64::consts::LN_2 / ratio.ln_1p();
+            ClusterSpace::Perspective { slices, .. } if axis == 2 => {
+                let slice = |depth: f64| slices.clamped_coordinate_of(depth);
+                let [_, step] = slices.on_device();
+                let error = 1e-4 / step;
                 Some([slice(-centre.z - radius) - error, slice(-centre.z + radius) + error])
             }
             ClusterSpace::Perspective { frustum, .. } => {

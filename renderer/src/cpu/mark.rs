@@ -42,18 +42,26 @@ impl Marks {
 /// # Panics
 /// Where the image does not hold one depth for every sample, or `marks` is not of this grid.
 pub fn mark(image: DepthImage<'_>, view: &View, grid: &Grid, epsilon: f64, marks: &mut Marks) {
-    let [width, height] = image.resolution.map(|side| side as usize);
-    let samples = image.sample_positions.len();
-    assert_eq!(image.depths.len(), width * height * samples, "one depth for every sample");
     assert_eq!(marks.fragments.len() as u64, grid.cluster_count(), "marks of this grid");
-    let grid_from_view = grid.pose.inverse() * view.pose;
-    let size = DVec2::new(width as f64, height as f64);
-    for (index, &depth) in image.depths.iter().enumerate().filter(|(_, depth)| **depth > 0.0) {
-        let pixel = index / samples;
-        let corner = DVec2::new((pixel % width) as f64, (pixel / width) as f64);
-        let [x, y] = image.sample_positions[index % samples].map(f64::from);
-        let seen = view.frustum.unproject((corner + DVec2::new(x, y)) / size, f64::from(depth));
-        count(grid, grid_from_view.transform_point(seen), epsilon, marks);
+    image.fragments(view, grid).for_each(|local| count(grid, local, epsilon, marks));
+}
+
+impl DepthImage<'_> {
+    /// The fragments that `view` sees, in the clustering space of `grid`.
+    pub(super) fn fragments(&self, view: &View, grid: &Grid) -> impl Iterator<Item = DVec3> {
+        let [width, height] = self.resolution.map(|side| side as usize);
+        let samples = self.sample_positions.len();
+        assert_eq!(self.depths.len(), width * height * samples, "one depth for every sample");
+        let grid_from_view = grid.pose.inverse() * view.pose;
+        let size = DVec2::new(width as f64, height as f64);
+        let there = self.depths.iter().enumerate().filter(|(_, depth)| **depth > 0.0);
+        there.map(move |(index, &depth)| {
+            let pixel = index / samples;
+            let corner = DVec2::new((pixel % width) as f64, (pixel / width) as f64);
+            let [x, y] = self.sample_positions[index % samples].map(f64::from);
+            let seen = view.frustum.unproject((corner + DVec2::new(x, y)) / size, f64::from(depth));
+            grid_from_view.transform_point(seen)
+        })
     }
 }
 
@@ -70,7 +78,7 @@ fn count(grid: &Grid, local: DVec3, epsilon: f64, marks: &mut Marks) {
 }
 
 /// The cells within `epsilon` of fractional cluster coordinates.
-fn possible_cells(grid: &Grid, at: DVec3, epsilon: f64) -> Vec<[u32; 3]> {
+pub(super) fn possible_cells(grid: &Grid, at: DVec3, epsilon: f64) -> Vec<[u32; 3]> {
     let index = |coordinates: DVec3, axis: usize| {
         let last = f64::from(grid.dimensions[axis]) - 1.0;
         coordinates[axis].floor().clamp(0.0, last) as u32

@@ -3,6 +3,7 @@
 //! ```text
 //! depth image ─mark─> fragments per cluster ─compact─> visible clusters ─assign─> light lists
 //!                                          (scan: the prefix sums inside compact and assign)
+//!             └─bounds─> what they take of their cells ─assign_measured─> light lists
 //! boxes of instances ─cull─> what is drawn
 //! ```
 //!
@@ -20,6 +21,7 @@
 
 mod assign;
 mod attenuation;
+mod bounds;
 mod brdf;
 mod compact;
 mod cull;
@@ -30,8 +32,9 @@ mod mark;
 mod scan;
 mod scatter;
 
-pub use assign::{LightLists, assign};
+pub use assign::{LightLists, assign, assign_measured};
 pub use attenuation::attenuation;
+pub use bounds::ClusterBounds;
 pub use brdf::{Surface, reflected};
 pub use compact::{Compacted, NOT_VISIBLE, compact};
 pub use cull::{Seen, cull};
@@ -70,11 +73,7 @@ mod tests {
     pub fn frustum_grid() -> Grid {
         let frustum = Frustum { x0: -1.0, x1: 0.8, y0: -0.6, y1: 0.7, z0: -60.0, z1: -0.5 };
         let ratio = 120f64.powf(1.0 / 9.0) - 1.0;
-        Grid {
-            pose: Pose::IDENTITY,
-            space: ClusterSpace::Perspective { frustum, ratio },
-            dimensions: [7, 5, 9],
-        }
+        Grid { pose: Pose::IDENTITY, space: ClusterSpace::geometric(frustum, ratio), dimensions: [7, 5, 9] }
     }
 
     /// Lights in front of the camera, spread evenly enough, in numbers that f32 has.

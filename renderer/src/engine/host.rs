@@ -100,6 +100,7 @@ impl Engine {
             None => gridless_data(count),
         };
         clustering.cluster_count = grid.map_or(0, |grid| grid.cluster_count() as u32);
+        clustering.dimensions = data.dimensions;
         clustering.word_count = data.word_count;
         clustering.dimensions = data.dimensions;
         clustering.host[slot][BufferName::Grid].write(0, &[data]);

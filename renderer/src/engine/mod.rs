@@ -28,7 +28,7 @@ pub use mode::{LargestGrid, Mode, variant};
 pub use plan::{FramePlan, plan_frames};
 pub use session::{Session, shader_library};
 
-use crate::assign::{Assigner, Clusters, Marking};
+use crate::assign::{Assigner, ClusterBounds, Clusters, Marking};
 use crate::buffers::{BufferName, ClusteringSizes};
 use crate::clustering::{Clustering, FRAME_SLOTS, SharedBuffer, make_buffer};
 use crate::config::{Config, Scopes};
@@ -56,6 +56,7 @@ pub struct Engine {
     multiview: bool,
     marking: Marking,
     clusters: Clusters,
+    bounds: ClusterBounds,
     grid_box: GridBox,
     assigner: Assigner,
     resolution: [u32; 2],
@@ -106,6 +107,7 @@ impl Engine {
             culling: run.culling,
             multiview: run.multiview && session.targets.len() > 1,
             clusters: chosen.clusters,
+            bounds: chosen.bounds,
             grid_box: run.grid_box,
             marking: run.marking,
             assigner: chosen.assigner,
@@ -245,6 +247,7 @@ impl Engine {
             sharing: self.method.kind().sharing,
             multiview: self.multiview,
             clusters: self.clusters,
+            bounds: self.bounds,
             marking: self.marking,
             assigner: self.assigner,
             shaded: self.shaded,

@@ -1,10 +1,10 @@
 //! What an engine is made for, and what follows from it: shader variants and buffer sizes.
 
 use super::FramePlan;
-use crate::assign::{Assigner, Clusters};
+use crate::assign::{Assigner, ClusterBounds, Clusters};
 use crate::buffers::ClusteringSizes;
 use crate::config::Config;
-use crate::geometry::SphereTest;
+use crate::geometry::{SliceLaw, SphereTest};
 use crate::measure::Capacities;
 use crate::methods::Method;
 use crate::methods::model::MOST_ACCELERATED;
@@ -75,6 +75,8 @@ pub(super) struct Chosen {
     pub method: Method,
     pub assigner: Assigner,
     pub clusters: Clusters,
+    pub bounds: ClusterBounds,
+    slices: SliceLaw,
     test: SphereTest,
 }
 
@@ -84,7 +86,14 @@ impl Chosen {
         let method = run.methods[0];
         // A method without lists assigns nothing.
         let assigner = if method.has_lists() { mode.assigner } else { Assigner::Brute };
-        Self { method, assigner, clusters: method.listed(run.clusters[0]), test: run.test[0].of(&method) }
+        Self {
+            method,
+            assigner,
+            clusters: method.listed(run.clusters[0].of(&method)),
+            bounds: method.kept_bounds(run.bounds[0].of(&method)),
+            slices: run.slices[0].of(&method),
+            test: run.test[0].of(&method),
+        }
     }
 
     /// The largest grid of a run whose planned ones are at most `planned`, over a scene of so many models.
@@ -115,6 +124,8 @@ impl Chosen {
             cells: kind.cells,
             sharing: kind.sharing,
             clusters: self.clusters,
+            bounds: self.bounds,
+            slices: self.slices,
             samples: run.msaa,
             culling: run.culling,
             multiview: run.multiview,
@@ -133,6 +144,7 @@ impl Chosen {
         ClusteringSizes {
             clusters,
             listed: self.clusters,
+            bounds: self.bounds,
             slice_planes,
             lights: mode.lights,
             capacities: self.method.capacities(clusters, self.clusters, mode.capacities),

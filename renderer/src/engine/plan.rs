@@ -3,7 +3,7 @@
 use crate::config::Config;
 use crate::geometry::Grid;
 use crate::geometry::views::View;
-use crate::methods::{Method, Scenery};
+use crate::methods::{Division, Method, Scenery};
 use crate::recording::Recording;
 use crate::{Error, Result, origin};
 use glam::DVec3;
@@ -45,10 +45,15 @@ pub fn plan_frames(run: &Config, recording: &Recording) -> Result<Vec<FramePlan>
     frames.into_iter().map(|frame| plan_frame(run, recording, frame)).collect()
 }
 
+/// How the grids of a run are divided.
+fn division(run: &Config) -> Division {
+    Division { volume: run.displaced_volume, slices: run.slices[0].of(&run.methods[0]) }
+}
+
 fn plan_frame(run: &Config, recording: &Recording, frame: u32) -> Result<FramePlan> {
     let method = run.methods[0];
     let views = recording.views(frame, run.resolution)?;
-    let grids = method.plan(&views, run.resolution, run.displaced_volume)?;
+    let grids = method.plan(&views, run.resolution, division(run))?;
     for grid in &grids {
         if grid.cluster_count() > MAX_CLUSTERS {
             let [x, y, z] = grid.dimensions;

@@ -97,6 +97,7 @@ impl Bench {
 }
 
 mod assign_equality;
+mod bounds;
 mod cull;
 mod list_twins;
 mod sphere_tests;

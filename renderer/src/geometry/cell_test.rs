@@ -4,7 +4,7 @@
 //! the answer was, so that a comparison with f32 results can leave borderline pairs out.
 
 use super::piece::FrustumPiece;
-use super::{ClusterSpace, Frustum, Grid, LightVolume, Separators, SphereTest, VolumeKind};
+use super::{ClusterSpace, Frustum, Grid, LightVolume, MeasuredBounds, Separators, SphereTest, VolumeKind};
 use glam::DVec3;
 
 /// A plane by its unit normal, which points inwards, and its offset.
@@ -20,6 +20,17 @@ impl Plane {
     /// Signed distance of `point`, metres; positive inside.
     pub fn distance(&self, point: DVec3) -> f64 {
         self.normal.dot(point) + self.offset
+    }
+
+    /// The sides between two tangents along x and two along y: x >= t*(-z) for the left plane with tangent t, and so on.
+    pub(super) fn through_apex([left, right]: [f64; 2], [bottom, top]: [f64; 2]) -> [Self; 4] {
+        [
+            DVec3::new(1.0, 0.0, left),
+            -DVec3::new(1.0, 0.0, right),
+            DVec3::new(0.0, 1.0, bottom),
+            -DVec3::new(0.0, 1.0, top),
+        ]
+        .map(|normal| Self { normal: normal.normalize(), offset: 0.0 })
     }
 }
 
@@ -38,19 +49,12 @@ impl Grid {
         [left, right, bottom, top, axis(DVec3::Z, low), axis(-DVec3::Z, high)]
     }
 
-    /// Through the apex: x >= t*(-z) for the left plane with tangent t, and so on.
     fn side_planes(&self, frustum: &Frustum, cell: [u32; 3]) -> [Plane; 4] {
         let step = [0, 1].map(|axis| frustum.size()[axis] / f64::from(self.dimensions[axis]));
         let x = |index: u32| frustum.x0 + step[0] * f64::from(index);
         let y = |index: u32| frustum.y0 + step[1] * f64::from(index);
         let [ix, iy, _] = cell;
-        [
-            DVec3::new(1.0, 0.0, x(ix)),
-            -DVec3::new(1.0, 0.0, x(ix + 1)),
-            DVec3::new(0.0, 1.0, y(iy)),
-            -DVec3::new(0.0, 1.0, y(iy + 1)),
-        ]
-        .map(|normal| Plane { normal: normal.normalize(), offset: 0.0 })
+        Plane::through_apex([x(ix), x(ix + 1)], [y(iy), y(iy + 1)])
     }
 }
 
@@ -59,7 +63,12 @@ impl Grid {
 pub struct CellTest {
     test: SphereTest,
     planes: [Plane; 6],
+    /// Where a part of a cell is tested, those of the cell: of two planes through the apex the outer one is not always nearer to
+    /// what lies behind both.
+    outer: Option<[Plane; 6]>,
     corners: [DVec3; 8],
+    /// Directions of the edges; as many as differ.
+    edges: [DVec3; 6],
     /// In perspective grids.
     piece: Option<FrustumPiece>,
 }
@@ -72,7 +81,20 @@ impl CellTest {
             ClusterSpace::Perspective { .. } => Some(FrustumPiece::new(&corners)),
             ClusterSpace::Orthographic { .. } => None,
         };
-        Self { test, planes: grid.cell_planes(cell), corners, piece }
+        let (planes, edges) = (grid.cell_planes(cell), edges(piece.as_ref()));
+        Self { test, planes, outer: None, corners, edges, piece }
+    }
+
+    /// Prepares what was measured in the cluster `cell` of `grid`; it holds something.
+    pub fn measured(test: SphereTest, grid: &Grid, cell: [u32; 3], bounds: &MeasuredBounds) -> Self {
+        let corners = bounds.corners(grid);
+        let piece = match grid.space {
+            ClusterSpace::Perspective { .. } => Some(FrustumPiece::new(&corners)),
+            ClusterSpace::Orthographic { .. } => None,
+        };
+        let (planes, edges) = (bounds.planes(grid), edges(piece.as_ref()));
+        let outer = piece.map(|_| grid.cell_planes(cell));
+        Self { test, planes, outer, corners, edges, piece }
     }
 
     /// Signed margin in metres: at least 0 where the volume meets the cluster, by this test. Its size is how far the
@@ -99,16 +121,16 @@ impl CellTest {
     fn unseparated(&self, separators: Separators, center: DVec3, radius: f64) -> f64 {
         let mut least = f64::INFINITY;
         if separators.contain(Separators::HALF_SPACES) {
-            let inside = self.planes.iter().map(|plane| plane.distance(center) + radius);
-            least = inside.fold(least, f64::min);
+            least = self.within_planes(center, radius);
         }
         if separators.contain(Separators::NORMALS) {
+            least = least.min(self.within_planes(center, radius));
             let normals = self.planes.iter().map(|plane| radius - self.gap(plane.normal, center));
             least = normals.fold(least, f64::min);
         }
         if separators.contain(Separators::EDGES) {
-            let edges = EDGES.iter().map(|&[from, to]| (self.corners[to] - self.corners[from]).normalize());
-            least = edges.map(|edge| radius - self.gap(edge, center)).fold(least, f64::min);
+            let edges = self.edges.iter().map(|&edge| radius - self.gap(edge, center));
+            least = edges.fold(least, f64::min);
         }
         if separators.contain(Separators::VERTICES) {
             let vertices = self.corners.iter().map(|&corner| self.vertex_margin(corner, center, radius));
@@ -118,6 +140,12 @@ impl CellTest {
             least = least.min(self.nearest_vertex_margin(center, radius));
         }
         least
+    }
+
+    /// Least distance of the centre from the planes, moved out by the radius.
+    fn within_planes(&self, center: DVec3, radius: f64) -> f64 {
+        let asked = self.planes.iter().chain(self.outer.iter().flatten());
+        asked.map(|plane| plane.distance(center) + radius).fold(f64::INFINITY, f64::min)
     }
 
     /// How far the corners' projections to a unit axis lie apart from the centre's, metres; below 0 where they enclose it.
@@ -150,8 +178,12 @@ impl CellTest {
     }
 }
 
-/// Edges of a cluster that differ in direction, by the corners they join.
-const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 4], [1, 5], [2, 6], [3, 7]];
+/// Unit directions of the edges of a piece of a frustum, or of a box, also where these have no length: x, y, and the four that
+/// meet in the apex, or z.
+fn edges(piece: Option<&FrustumPiece>) -> [DVec3; 6] {
+    let [a, b, c, d] = piece.map_or([DVec3::Z; 4], FrustumPiece::sides);
+    [DVec3::X, DVec3::Y, a, b, c, d]
+}
 
 /// Margin of [`SphereTest::HALF_SPACES`] between a cluster and a sphere in clustering space, metres.
 pub fn half_space(grid: &Grid, cell: [u32; 3], center: DVec3, radius: f64) -> f64 {
@@ -195,7 +227,7 @@ mod tests {
             assert!((half_space(&orthographic(), cell, center, 1.5) - margin).abs() < 1e-12);
         }
         let frustum = Frustum { x0: -1.0, x1: 1.0, y0: -1.0, y1: 1.0, z0: -16.0, z1: -1.0 };
-        let space = ClusterSpace::Perspective { frustum, ratio: 3.0 };
+        let space = ClusterSpace::geometric(frustum, 3.0);
         let perspective = Grid { pose: Pose::IDENTITY, space, dimensions: [2, 2, 2] };
         let beside = DVec3::new(2.0 + 2f64.sqrt(), 0.5, -2.0);
         assert!((half_space(&perspective, [1, 1, 0], beside, 1.25) - 0.25).abs() < 1e-12, "45 degrees");
@@ -205,7 +237,7 @@ mod tests {
     #[test]
     fn planes_touch_their_cells_corners_and_point_inwards() {
         let frustum = Frustum { x0: -1.2, x1: 0.9, y0: -0.7, y1: 1.1, z0: -80.0, z1: -0.3 };
-        let space = ClusterSpace::Perspective { frustum, ratio: 0.5 };
+        let space = ClusterSpace::geometric(frustum, 0.5);
         let perspective = Grid { pose: Pose::IDENTITY, space, dimensions: [5, 3, 14] };
         for (grid, cell) in [(perspective, [0, 2, 7]), (perspective, [4, 1, 0]), (orthographic(), [1, 0, 1])]
         {

@@ -2,7 +2,7 @@
 //!
 //! Dimensions are whole numbers in f64 here: only a finished grid is checked against what a u32 can index.
 
-use super::Frustum;
+use super::{Frustum, SliceLaw, Slices};
 use glam::DVec3;
 
 /// Relative slack when rounding a count up: 50 stays 50 where rounding errors made it 50.000000000001, so
@@ -38,10 +38,29 @@ pub fn from_pixels(frustum: &Frustum, resolution: [u32; 2], pixels: f64) -> Pers
     PerspectiveDimensions::new(columns, rows, frustum, side_in_tangents(frustum, resolution, pixels))
 }
 
-/// Tiles of `pixels` squared on a screen of `resolution` pixels: one slice from the near to the far plane.
-pub fn tiles_from_pixels(frustum: &Frustum, resolution: [u32; 2], pixels: f64) -> PerspectiveDimensions {
+/// Tiles of `pixels` squared on a screen of `resolution` pixels, in so many slices from the near to the far plane
+/// (Enhuber section 3.2).
+pub fn sliced_tiles(
+    frustum: &Frustum,
+    resolution: [u32; 2],
+    pixels: f64,
+    slices: f64,
+) -> PerspectiveDimensions {
     let [columns, rows] = resolution.map(|side| round_up(f64::from(side) / pixels));
-    PerspectiveDimensions { dimensions: DVec3::new(columns, rows, 1.0), ratio: depth_span(frustum).exp_m1() }
+    let ratio = (depth_span(frustum) / slices).exp_m1();
+    PerspectiveDimensions { dimensions: DVec3::new(columns, rows, slices), ratio }
+}
+
+impl PerspectiveDimensions {
+    /// The slices of a law, and their number: as many as these, or as many as the law says.
+    pub fn by_law(self, law: SliceLaw, frustum: &Frustum) -> (Slices, DVec3) {
+        let Self { mut dimensions, mut ratio } = self;
+        if law == SliceLaw::Cubes {
+            ratio = frustum.size().y / dimensions.y;
+            dimensions.z = round_up(depth_span(frustum) / ratio.ln_1p());
+        }
+        (Slices::new(law, frustum, ratio, dimensions.z), dimensions)
+    }
 }
 
 /// The mean of the two sides of a cluster of Persp P, in tangents: clusters become about as deep as wide.

@@ -1,6 +1,6 @@
 //! A grid of clusters: from points to clusters and from clusters to their shapes.
 
-use super::Frustum;
+use super::{Frustum, Slices};
 use crate::geometry::views::Pose;
 use glam::DVec3;
 
@@ -21,12 +21,12 @@ pub enum CellShape {
 /// The shape of a grid, in clustering space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ClusterSpace {
-    /// Clusters divide the frustum evenly in tangents, and geometrically in depth (Gelderen equation 3.3).
+    /// Clusters divide the frustum evenly in tangents, and by a law in depth.
     Perspective {
         /// From the apex at the origin of clustering space.
         frustum: Frustum,
-        /// d: slice k spans depths z1*(1+d)^k..z1*(1+d)^(k+1); the last one ends at `z0`.
-        ratio: f64,
+        /// Where the planes between slices lie; the last one is at `z0`, or beyond it.
+        slices: Slices,
     },
     /// Clusters divide an axis-aligned box evenly.
     Orthographic {
@@ -35,6 +35,13 @@ pub enum ClusterSpace {
         /// Highest corner of the grid, metres.
         max: DVec3,
     },
+}
+
+impl ClusterSpace {
+    /// A frustum whose slice k spans depths z1*(1+`ratio`)^k..z1*(1+`ratio`)^(k+1) (Gelderen equation 3.3).
+    pub fn geometric(frustum: Frustum, ratio: f64) -> Self {
+        Self::Perspective { frustum, slices: Slices::geometric(frustum.near(), ratio) }
+    }
 }
 
 /// A clustering's grid. Linear index ix + Dx*(iy + Dy*iz).
@@ -105,12 +112,12 @@ impl Grid {
     pub fn coordinates(&self, point: DVec3) -> Option<DVec3> {
         let dimensions = self.dimensions_f64();
         match self.space {
-            ClusterSpace::Perspective { frustum: f, ratio } => (point.z < 0.0).then(|| {
+            ClusterSpace::Perspective { frustum: f, slices } => (point.z < 0.0).then(|| {
                 let size = f.size();
                 DVec3::new(
                     dimensions.x * (point.x / -point.z - f.x0) / size.x,
                     dimensions.y * (point.y / -point.z - f.y0) / size.y,
-                    (point.z / f.z1).ln() / ratio.ln_1p(),
+                    slices.coordinate_of(-point.z),
                 )
             }),
             ClusterSpace::Orthographic { min, max } => Some(dimensions * (point - min) / (max - min)),
@@ -154,25 +161,24 @@ impl Grid {
     pub fn point_at(&self, coordinates: DVec3) -> DVec3 {
         let part = coordinates / self.dimensions_f64();
         match self.space {
-            ClusterSpace::Perspective { frustum: f, ratio } => {
+            ClusterSpace::Perspective { frustum: f, slices } => {
                 let size = f.size();
-                let distance = f.near() * (coordinates.z * ratio.ln_1p()).exp();
+                let distance = slices.depth_at(coordinates.z);
                 DVec3::new(f.x0 + size.x * part.x, f.y0 + size.y * part.y, -1.0) * distance
             }
             ClusterSpace::Orthographic { min, max } => min + (max - min) * part,
         }
     }
 
-    /// Replaces `planes` by the depths between the slices of a perspective grid, metres: near, Dz - 1 between, far. Empty
-    /// for orthographic grids.
+    /// Replaces `planes` by the depths between the slices of a perspective grid, metres: of the first one's near side, Dz - 1
+    /// between, of the last one's far side. Empty for orthographic grids.
     ///
     /// Slice k holds what is not nearer than plane k and nearer than plane k + 1, compared in f32 on the device. They
     /// ascend strictly, see [`crate::methods::Method::plan`].
     pub fn slice_planes(&self, planes: &mut Vec<f32>) {
         planes.clear();
-        if let ClusterSpace::Perspective { frustum, ratio } = self.space {
-            let depth = |slice: u32| frustum.near() * (f64::from(slice) * ratio.ln_1p()).exp();
-            planes.extend((0..=self.dimensions[2]).map(|slice| depth(slice) as f32));
+        if let ClusterSpace::Perspective { slices, .. } = self.space {
+            planes.extend((0..=self.dimensions[2]).map(|slice| slices.depth_at(slice.into()) as f32));
         }
     }
 
@@ -193,7 +199,7 @@ mod tests {
 
     fn perspective() -> Grid {
         let frustum = Frustum { x0: -1.0, x1: 1.0, y0: -0.5, y1: 0.5, z0: -16.0, z1: -1.0 };
-        let space = ClusterSpace::Perspective { frustum, ratio: 1.0 };
+        let space = ClusterSpace::geometric(frustum, 1.0);
         Grid { pose: Pose::from_position(DVec3::new(0.0, 0.0, 3.0)), space, dimensions: [4, 2, 4] }
     }
 

@@ -13,9 +13,11 @@ mod displaced;
 mod enclosing;
 mod frustum;
 mod grid;
+mod measured;
 mod oriented_box;
 mod piece;
 mod sharing;
+mod slices;
 mod sphere_test;
 pub mod views;
 mod volume;
@@ -23,13 +25,15 @@ mod volume;
 pub use cell_test::{CellTest, Plane, axis_box, half_space};
 pub use dimensions::{
     PerspectiveDimensions, average_volume, from_metres, from_pixels, from_volume, side_in_tangents,
-    tiles_from_pixels,
+    sliced_tiles,
 };
 pub use displaced::{DisplacedVolume, displaced};
 pub use enclosing::{Enclosing, enclosing};
 pub use frustum::Frustum;
 pub use grid::{CellShape, ClusterSpace, Grid, cell_at};
+pub use measured::MeasuredBounds;
 pub use oriented_box::OrientedBox;
 pub use sharing::Sharing;
+pub use slices::{SliceLaw, Slices};
 pub use sphere_test::{Separators, SphereTest};
 pub use volume::{LightVolume, VolumeKind};

@@ -12,15 +12,23 @@ pub(super) struct FrustumPiece {
 }
 
 impl FrustumPiece {
-    /// The piece with these corners, in the order of [`super::Grid::cell_corners`].
+    /// The piece with these corners, in the order of [`super::Grid::cell_corners`]: the near ones first.
     pub fn new(corners: &[DVec3; 8]) -> Self {
         let tangents = |corner: DVec3| corner.truncate() / -corner.z;
         Self {
-            low: tangents(corners[0]),
-            high: tangents(corners[3]),
+            // The near corners may lie in the apex.
+            low: tangents(corners[4]),
+            high: tangents(corners[7]),
             near: -corners[0].z,
             far: -corners[4].z,
         }
+    }
+
+    /// Unit directions of the four edges that meet in the apex.
+    pub fn sides(&self) -> [DVec3; 4] {
+        let side = |x: f64, y: f64| DVec3::new(x, y, -1.0).normalize();
+        let Self { low, high, .. } = *self;
+        [side(low.x, low.y), side(high.x, low.y), side(low.x, high.y), side(high.x, high.y)]
     }
 
     /// Distance of a point, metres; 0 inside.

@@ -39,10 +39,10 @@ gpu_struct! {
         pub dimensions: [u32; 3],
         /// Words of the visibility bits: ceil(Dx*Dy*Dz / 32).
         pub word_count: u32,
-        /// Where the first cell begins. Perspective: left tangent, bottom tangent, near distance. Orthographic: lowest
-        /// corner, metres.
+        /// Where the first cell begins. Perspective: left tangent, bottom tangent, and the depth that others are measured in.
+        /// Orthographic: lowest corner, metres.
         pub origin: [f32; 3],
-        /// Cells per tangent and per log2 of depth; or cells per metre.
+        /// Cells per tangent, and slices per log2 of depth or what else their law divides evenly; or cells per metre.
         pub scale: [f32; 3],
         /// Size of a cell along each axis: the inverse of `scale`.
         pub cell: [f32; 3],

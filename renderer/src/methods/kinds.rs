@@ -2,7 +2,11 @@
 
 use super::grid::{GridMethod, Space};
 use super::{Method, Sharing, WorldGrid};
+use crate::assign::{Bounds, Clusters};
 use crate::geometry::CellShape;
+
+/// What a size is called that is a number of slices.
+const SLICES: &str = "SLICES";
 
 /// A kind of method: what is behind a name but for the sizes.
 #[derive(Debug)]
@@ -28,7 +32,7 @@ pub struct Kind {
 
 /// Every kind of method. All serve transparent geometry, all views in stereo, and any number of samples (models: where fragments
 /// run for each).
-pub static KINDS: [Kind; 10] = [
+pub static KINDS: [Kind; 16] = [
     Kind {
         name: "indi-persp",
         sizes: &["PIXELS"],
@@ -107,6 +111,72 @@ pub static KINDS: [Kind; 10] = [
         make: |sizes| Method::grid(Sharing::Indi, Space::Tiled { pixels: sizes[0] }),
     },
     Kind {
+        name: "t-i",
+        sizes: &["PIXELS"],
+        tuned: &[28.0],
+        title: "T-I",
+        about: "tiles of each view's screen, all of them with lists",
+        sharing: Sharing::Indi,
+        lookup: "clustered",
+        cells: Some(CellShape::Frustum),
+        make: |sizes| tiles(Bounds::Implicit, sizes),
+    },
+    Kind {
+        name: "t-e",
+        sizes: &["PIXELS"],
+        tuned: &[28.0],
+        title: "T-E",
+        about: "tiles of each view's screen, each with the depths of its samples",
+        sharing: Sharing::Indi,
+        lookup: "clustered",
+        cells: Some(CellShape::Frustum),
+        make: |sizes| tiles(Bounds::Measured, sizes),
+    },
+    Kind {
+        name: "dc-i",
+        sizes: &["PIXELS", SLICES],
+        tuned: &[128.0, 64.0],
+        title: "DC-I",
+        about: "tiles of each view's screen in so many slices, all clusters with lists",
+        sharing: Sharing::Indi,
+        lookup: "clustered",
+        cells: Some(CellShape::Frustum),
+        make: |sizes| sliced((Clusters::All, Bounds::Implicit), sizes),
+    },
+    Kind {
+        name: "dc-e",
+        sizes: &["PIXELS", SLICES],
+        tuned: &[64.0, 40.0],
+        title: "DC-E",
+        about: "tiles of each view's screen in so many slices, each cluster with the box of its samples",
+        sharing: Sharing::Indi,
+        lookup: "clustered",
+        cells: Some(CellShape::Frustum),
+        make: |sizes| sliced((Clusters::All, Bounds::Measured), sizes),
+    },
+    Kind {
+        name: "sc-i",
+        sizes: &["PIXELS", SLICES],
+        tuned: &[48.0, 40.0],
+        title: "SC-I",
+        about: "tiles of each view's screen in so many slices, visible clusters with lists",
+        sharing: Sharing::Indi,
+        lookup: "clustered",
+        cells: Some(CellShape::Frustum),
+        make: |sizes| sliced((Clusters::Visible, Bounds::Implicit), sizes),
+    },
+    Kind {
+        name: "sc-e",
+        sizes: &["PIXELS", SLICES],
+        tuned: &[48.0, 40.0],
+        title: "SC-E",
+        about: "tiles of each view's screen in so many slices, visible clusters with lists and the box of their samples",
+        sharing: Sharing::Indi,
+        lookup: "clustered",
+        cells: Some(CellShape::Frustum),
+        make: |sizes| sliced((Clusters::Visible, Bounds::Measured), sizes),
+    },
+    Kind {
         name: "g",
         sizes: &["CELLS"],
         tuned: &[20.0],
@@ -145,8 +215,26 @@ fn displ(sharing: Sharing, sizes: &[f64]) -> Method {
     Method::grid(sharing, Space::Displ { pixels: sizes[0], displacement: sizes[1] })
 }
 
+/// Tiles that all have lists (Enhuber section 3.1).
+fn tiles(bounds: Bounds, sizes: &[f64]) -> Method {
+    let tiled = GridMethod::new(Sharing::Indi, Space::Tiled { pixels: sizes[0] });
+    Method::Grid(GridMethod { clusters: Clusters::All, bounds, ..tiled })
+}
+
+/// Tiles in slices (Enhuber section 3.2).
+fn sliced((clusters, bounds): (Clusters, Bounds), sizes: &[f64]) -> Method {
+    let sliced = GridMethod::new(Sharing::Indi, Space::Sliced { pixels: sizes[0], slices: sizes[1] });
+    Method::Grid(GridMethod { clusters, bounds, ..sliced })
+}
+
 impl Kind {
-    /// The method with these sizes, as many as [`Self::sizes`] names.
+    /// Whether these are sizes of the kind: as many as [`Self::sizes`] names, and whole numbers of slices.
+    pub fn takes(&self, sizes: &[f64]) -> bool {
+        let whole = |(name, size): (&&str, &f64)| *name != SLICES || size.fract() == 0.0;
+        sizes.len() == self.sizes.len() && self.sizes.iter().zip(sizes).all(whole)
+    }
+
+    /// The method with these sizes, which it [takes](Self::takes).
     pub fn with_sizes(&self, sizes: &[f64]) -> Method {
         (self.make)(sizes)
     }

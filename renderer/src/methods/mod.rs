@@ -1,7 +1,7 @@
 //! The ways of finding the lights of a fragment. [`KINDS`] is the one table of them: name, sizes, and what each can do.
 //!
 //! A method's name is its identity everywhere: on the command line, in configurations, as run directory and as row of every
-//! table. `indi-persp-64`, `encl-ortho-4`, `indi-displ-64-32`, `tiled-16`, `g-20`, `m`, `all-lights`.
+//! table. `indi-persp-64`, `encl-ortho-4`, `indi-displ-64-32`, `tiled-16`, `sc-e-48-40`, `g-20`, `m`, `all-lights`.
 //!
 //! ```text
 //! plan (pure, f64) -> resources -> record (passes) -> lookup/<name>.glsl (shading) -> twin (CPU)
@@ -17,14 +17,14 @@ mod name;
 pub mod world;
 
 pub use crate::geometry::Sharing;
-pub use grid::{GridMethod, Space};
+pub use grid::{Division, GridMethod, Space};
 pub use kinds::{KINDS, Kind};
 pub use world::{GridBox, WorldGrid};
 
 use crate::Result;
-use crate::assign::Clusters;
+use crate::assign::{Bounds, ClusterBounds, Clusters};
+use crate::geometry::Grid;
 use crate::geometry::views::View;
-use crate::geometry::{DisplacedVolume, Grid};
 use crate::lights::PointLight;
 use crate::measure::Capacities;
 use crate::pass::Recorder;
@@ -58,7 +58,7 @@ pub struct Scenery<'a> {
 }
 
 impl Method {
-    /// A method of grids with implicit bounds and lists by offsets.
+    /// A method of grids with lists by offsets for visible clusters, and implicit bounds.
     pub const fn grid(sharing: Sharing, space: Space) -> Self {
         Self::Grid(GridMethod::new(sharing, space))
     }
@@ -67,11 +67,11 @@ impl Method {
     /// do not depend on the views lie nowhere yet: [`Self::settled`].
     ///
     /// # Errors
-    /// Views or sizes that it cannot serve; see [`grid::plan`] and [`world::plan`].
-    pub fn plan(&self, views: &[View], resolution: [u32; 2], volume: DisplacedVolume) -> Result<Vec<Grid>> {
+    /// Views or sizes that it cannot serve; see [`GridMethod::plan`] and [`world::plan`].
+    pub fn plan(&self, views: &[View], resolution: [u32; 2], division: Division) -> Result<Vec<Grid>> {
         match *self {
             Self::AllLights => Ok(vec![]),
-            Self::Grid(grid) => grid::plan(grid.space, grid.sharing, views, resolution, volume),
+            Self::Grid(grid) => grid.plan(views, resolution, division),
             Self::World(grid) => Ok(vec![world::plan(grid)?]),
             Self::Models => Ok(vec![model::plan()]),
         }
@@ -97,6 +97,36 @@ impl Method {
             Self::AllLights | Self::Grid(_) => false,
             Self::World(_) | Self::Models => true,
         }
+    }
+
+    /// Which clusters get lists by the method's name.
+    pub fn own_clusters(&self) -> Clusters {
+        match self {
+            Self::AllLights => Clusters::Visible,
+            Self::Grid(grid) => grid.clusters,
+            Self::World(_) | Self::Models => Clusters::All,
+        }
+    }
+
+    /// What of clusters is tested against lights by the method's name.
+    pub fn own_bounds(&self) -> Bounds {
+        match self {
+            Self::AllLights | Self::World(_) | Self::Models => Bounds::Implicit,
+            Self::Grid(grid) => grid.bounds,
+        }
+    }
+
+    /// What is kept of a cluster for these bounds.
+    pub fn kept_bounds(&self, bounds: Bounds) -> ClusterBounds {
+        match (self, bounds) {
+            (Self::Grid(grid), Bounds::Measured) => grid.space.measured_bounds(),
+            _ => ClusterBounds::Cell,
+        }
+    }
+
+    /// Whether a law says where slices begin.
+    pub fn has_slices(&self) -> bool {
+        matches!(self, Self::Grid(grid) if grid.space.has_slices())
     }
 
     /// What a clustering's buffers hold at first, for grids of up to `clusters` clusters; nothing without lists.

@@ -1,5 +1,5 @@
 //! A method's name: the name of its kind and its sizes, as plain decimal numbers: `indi-persp-64`, `encl-ortho-0.5`,
-//! `indi-displ-64-32`, `tiled-16`, `g-20`, `m`, `all-lights`.
+//! `indi-displ-64-32`, `tiled-16`, `sc-e-48-40`, `g-20`, `m`, `all-lights`.
 
 use super::{KINDS, Kind, Method};
 use crate::{Error, Result};
@@ -21,7 +21,7 @@ impl FromStr for Method {
             let patterns = KINDS.iter().map(Kind::pattern).collect::<Vec<_>>().join(", ");
             let nearest = nearest(name);
             Error::input(format!(
-                "method '{name}' is not known: use one of {patterns}, with sizes above 0; did you mean '{nearest}'?"
+                "method '{name}' is not known: use one of {patterns}, with sizes above 0, of slices whole ones; did you mean '{nearest}'?"
             ))
         })
     }
@@ -32,7 +32,7 @@ fn parse(name: &str) -> Option<Method> {
         let rest = name.strip_prefix(kind.name)?;
         let mut parts = rest.split('-');
         let sizes: Option<Vec<f64>> = parts.next()?.is_empty().then(|| parts.map(size).collect())?;
-        sizes.filter(|sizes| sizes.len() == kind.sizes.len()).map(|sizes| kind.with_sizes(&sizes))
+        sizes.filter(|sizes| kind.takes(sizes)).map(|sizes| kind.with_sizes(&sizes))
     })
 }
 
@@ -61,7 +61,16 @@ mod tests {
 
     #[test]
     fn names_read_and_print_the_same() {
-        for name in ["indi-ortho-0.5", "encl-displ-16-0.25", "tiled-12.5", "g-20", "m", "all-lights"] {
+        for name in [
+            "indi-ortho-0.5",
+            "encl-displ-16-0.25",
+            "tiled-12.5",
+            "t-e-28",
+            "dc-i-12.5-64",
+            "g-20",
+            "m",
+            "all-lights",
+        ] {
             assert_eq!(name.parse::<Method>().unwrap().to_string(), name);
         }
         assert_eq!("indi-persp-64.0".parse::<Method>().unwrap().to_string(), "indi-persp-64");
@@ -83,6 +92,8 @@ mod tests {
             ("all-light", "'all-lights'"),
             ("tile-8", "'tiled-8'"),
             ("tiled-8-2", "'tiled-16'"),
+            ("dc-e-64-2.5", "'dc-e-64-40'"),
+            ("sc-e-64", "'sc-e-48-40'"),
             ("g-0", "'g-20'"),
             ("G-8", "'g-8'"),
             ("m-2", "'m'"),

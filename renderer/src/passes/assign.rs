@@ -102,7 +102,7 @@ fn meet(
         Assigner::Hierarchy => set(&[B::TreeVolumes, B::TreeLights, B::LightNodes]),
         Assigner::Scatter => set(&[B::LightVolumes, B::Groups, B::PacketGroups, B::GroupLights]),
     };
-    let reads = reads | lights | set(&[B::VisibleClusters]);
+    let reads = reads | lights | set(&[B::VisibleClusters, B::ClusterBounds]);
     indirect(r, frame, visible, dispatch, (reads, writes));
 }
 

@@ -24,7 +24,7 @@ pub fn cull_lights(r: &mut Recorder, frame: &Frame, _lights: Lights, visible: Vi
         let by_block = Size::Workgroups(light_blocks(frame.light_count), 1);
         let (lights, blocks, bits) = (set(&[B::Lights]), set(&[B::BlockBits]), set(&[B::LightBits]));
         r.clear(&frame.clusterings[clustering].buffers[B::BlockBits]);
-        let clusters = set(&[B::State, B::VisibleClusters]);
+        let clusters = set(&[B::State, B::VisibleClusters, B::ClusterBounds]);
         let marked = blocks | set(&[B::Groups]);
         run(r, &pipelines.mark_blocks, Size::Indirect(DISPATCH_LISTS), (clusters, marked));
         run(r, &pipelines.cull_lights, by_block, (lights | blocks, bits));

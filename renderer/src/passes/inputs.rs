@@ -1,6 +1,6 @@
 //! What a frame is recorded from.
 
-use crate::assign::{Assigner, Clusters, Marking};
+use crate::assign::{Assigner, ClusterBounds, Clusters, Marking};
 use crate::clustering::Clustering;
 use crate::draw_list::DrawList;
 use crate::drawables::{DrawableOrder, Drawables};
@@ -148,6 +148,8 @@ pub struct Frame<'a> {
     pub multiview: bool,
     /// Which clusters get lists.
     pub clusters: Clusters,
+    /// What of a cluster is tested against lights.
+    pub bounds: ClusterBounds,
     /// Where visible clusters are marked from.
     pub marking: Marking,
     /// How the light lists are built.

@@ -8,7 +8,7 @@ use crate::assign::Marking;
 use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::draw_list::SurfaceKind;
 use crate::pass::{Dispatch, Push, Recorder, Size};
-use crate::pipelines::MarkPipelines;
+use crate::pipelines::VisitPipelines;
 
 /// Marks the clusters of one view's fragments, whose `depth` is there: opaque and masked ones from the depth buffer or from
 /// their geometry, transparent ones always from their geometry.
@@ -20,7 +20,8 @@ pub fn record(r: &mut Recorder, frame: &Frame, (clustering, view): (usize, usize
             r.clear(&this.buffers[B::ClusterBits]);
         }
         let found = (BufferSet::EMPTY, set(&[B::ClusterBits]));
-        visit(r, frame, (clustering, view), &frame.pipelines.clustered().mark, found);
+        let by_pixel = Size::pixels(frame.resolution);
+        visit(r, frame, (clustering, view), (&frame.pipelines.clustered().mark, by_pixel), found);
     });
 }
 
@@ -30,16 +31,18 @@ pub fn count_fragments(r: &mut Recorder, frame: &Frame, clustering: usize) {
     r.clear(&this.buffers[B::VisibleFragments]);
     let found = (set(&[B::ClusterBits, B::WordRanks]), set(&[B::VisibleFragments]));
     for view in this.views.clone() {
-        visit(r, frame, (clustering, view), &frame.pipelines.clustered().count_fragments, found);
+        let by_pixel = Size::pixels(frame.resolution);
+        visit(r, frame, (clustering, view), (&frame.pipelines.clustered().count_fragments, by_pixel), found);
     }
 }
 
-/// Visits the cluster of every fragment of a view, with what that reads and writes.
-fn visit(
+/// Visits the cluster of every fragment of a view: those of the depth buffer in workgroups of a size, with what that reads and
+/// writes.
+pub(super) fn visit(
     r: &mut Recorder,
     frame: &Frame,
     (clustering, view): (usize, usize),
-    pipelines: &MarkPipelines,
+    (pipelines, size): (&VisitPipelines, Size),
     (reads, writes): (BufferSet, BufferSet),
 ) {
     let kinds = match (frame.marking, &pipelines.depth) {
@@ -47,7 +50,7 @@ fn visit(
             r.dispatch(&Dispatch {
                 pipeline,
                 buffers: frame.buffers(clustering),
-                size: Size::pixels(frame.resolution),
+                size,
                 reads,
                 writes,
                 depth: Some(frame.targets[view].depth_image()),

@@ -3,6 +3,7 @@
 //! [`Frame`]; what they hand on are handles, such as [`Depth`] and [`LightLists`].
 
 pub mod assign;
+pub mod bounds;
 pub mod clay;
 pub mod cull;
 pub mod cull_lights;

@@ -1,6 +1,6 @@
 //! The variants of what draws the scene.
 
-use super::{Defines, PipelineStore, Variant};
+use super::{Defines, PipelineStore, Variant, Visit};
 use crate::Result;
 use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
@@ -18,10 +18,8 @@ use std::sync::Arc;
 pub(super) enum Output {
     /// The pipeline writes depth alone.
     Depth,
-    /// Tests depth; marks clusters.
-    Marks(SurfaceKind),
-    /// Tests depth; counts fragments of clusters.
-    Counts(SurfaceKind),
+    /// Tests depth; visits the clusters of fragments.
+    Visits(SurfaceKind, Visit),
     /// Tests depth; writes radiance, of which these textures are a part.
     Shades(SurfaceKind, TextureSet),
 }
@@ -30,7 +28,7 @@ impl Output {
     /// The colour targets it draws into.
     fn targets(self) -> &'static [TargetName] {
         match self {
-            Self::Depth | Self::Marks(_) | Self::Counts(_) => &[],
+            Self::Depth | Self::Visits(..) => &[],
             Self::Shades(..) => &[TargetName::Radiance],
         }
     }
@@ -110,8 +108,7 @@ fn graphics_defines(variant: &Variant, textured: bool, output: Output) -> Define
         .with("MODELS", u32::from(variant.has_models() && output != Output::Depth));
     match output {
         Output::Depth => defines,
-        Output::Marks(_) => defines.with("COUNT_FRAGMENTS", 0),
-        Output::Counts(_) => defines.with("COUNT_FRAGMENTS", 1),
+        Output::Visits(_, visit) => defines.with("VISIT", visit.define()),
         Output::Shades(kind, _) => defines
             .with("TRANSPARENT", u32::from(kind == SurfaceKind::Transparent))
             .with("LIGHTS_AT_ONCE", variant.lights_at_once),
@@ -122,7 +119,7 @@ fn graphics_defines(variant: &Variant, textured: bool, output: Output) -> Define
 fn varyings(textured: bool, output: Output) -> u32 {
     match output {
         Output::Depth => u32::from(textured),
-        Output::Marks(_) | Output::Counts(_) => 0,
+        Output::Visits(..) => 0,
         Output::Shades(..) => 2,
     }
 }
@@ -131,7 +128,7 @@ fn varyings(textured: bool, output: Output) -> u32 {
 fn textures(textured: bool, output: Output) -> TextureSet {
     match output {
         Output::Depth if textured => TextureSet::BASE_COLOR,
-        Output::Depth | Output::Marks(_) | Output::Counts(_) => TextureSet::NONE,
+        Output::Depth | Output::Visits(..) => TextureSet::NONE,
         Output::Shades(_, set) => set,
     }
 }
@@ -140,7 +137,7 @@ fn textures(textured: bool, output: Output) -> TextureSet {
 fn depth_compare(output: Output) -> vk::CompareOp {
     match output {
         Output::Depth => vk::CompareOp::GREATER,
-        Output::Marks(kind) | Output::Counts(kind) | Output::Shades(kind, _) => match kind {
+        Output::Visits(kind, _) | Output::Shades(kind, _) => match kind {
             SurfaceKind::Transparent => vk::CompareOp::GREATER_OR_EQUAL,
             SurfaceKind::Opaque | SurfaceKind::Masked => vk::CompareOp::EQUAL,
         },

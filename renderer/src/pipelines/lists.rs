@@ -1,6 +1,6 @@
 //! The pipelines that build light lists: an entry each says what it is, and how it is made.
 
-use super::{Defines, MarkPipelines, PipelineStore, ScanPipelines, Variant};
+use super::{Defines, PipelineStore, ScanPipelines, Variant, Visit, VisitPipelines};
 use crate::Result;
 use crate::assign::Assigner;
 use crate::layouts::Pipeline;
@@ -39,8 +39,8 @@ impl Maker<'_> {
         self.store.scan(&self.defines, items)
     }
 
-    fn mark(&mut self, count: bool) -> Result<MarkPipelines> {
-        self.store.mark(self.variant, count)
+    fn visit(&mut self, visit: Visit) -> Result<VisitPipelines> {
+        self.store.visit(self.variant, visit)
     }
 }
 
@@ -80,9 +80,9 @@ pipelines! {
     /// What methods with clusters run.
     pub struct ClusteredPipelines, made by clustered with make {
         /// Marking the clusters of fragments.
-        mark: MarkPipelines = make.mark(false);
+        mark: VisitPipelines = make.visit(Visit::Mark);
         /// Counting the fragments of visible clusters.
-        count_fragments: MarkPipelines = make.mark(true);
+        count_fragments: VisitPipelines = make.visit(Visit::Count);
         /// Prefix sum of the visibility words.
         compact: ScanPipelines = make.scan("SCAN_VISIBILITY");
         /// Every cluster as a visible one.

@@ -1,6 +1,6 @@
 //! The shaders with which the self-test and benchmarks measure; no replay makes them.
 
-use super::{Output, PipelineStore, Variant};
+use super::{Output, PipelineStore, Variant, Visit};
 use crate::Result;
 use crate::draw_list::SurfaceKind;
 use crate::layouts::Pipeline;
@@ -19,6 +19,6 @@ impl PipelineStore {
 
     /// A fragment shader of the self-test for opaque surfaces, of a variant that shades per sample.
     pub fn surface_probe(&mut self, variant: &Variant, path: &str) -> Result<Arc<Pipeline>> {
-        self.graphics(variant, Some(path), Output::Counts(SurfaceKind::Opaque))
+        self.graphics(variant, Some(path), Output::Visits(SurfaceKind::Opaque, Visit::Count))
     }
 }

@@ -1,10 +1,10 @@
 //! A variant as data: what shaders are specialised for, and the defines that follow.
 
 use super::Output;
-use crate::assign::{Assigner, Clusters, Marking};
+use crate::assign::{Assigner, ClusterBounds, Clusters, Marking};
 use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
-use crate::geometry::{CellShape, Separators, Sharing, SphereTest};
+use crate::geometry::{CellShape, Separators, Sharing, SliceLaw, SphereTest};
 use crate::lights::Attenuation;
 
 /// What a run's shaders are specialised for.
@@ -18,6 +18,10 @@ pub struct Variant {
     pub sharing: Sharing,
     /// Which clusters get lists.
     pub clusters: Clusters,
+    /// What of a cluster is tested against lights.
+    pub bounds: ClusterBounds,
+    /// Where slices begin.
+    pub slices: SliceLaw,
     /// Samples per pixel.
     pub samples: u32,
     /// Where instances are culled.
@@ -69,7 +73,7 @@ impl Variant {
             && match output {
                 Output::Depth => true,
                 Output::Shades(kind, _) => one_clustering && kind != SurfaceKind::Transparent,
-                Output::Marks(_) | Output::Counts(_) => false,
+                Output::Visits(..) => false,
             }
     }
 
@@ -84,10 +88,17 @@ impl Variant {
             Clusters::Visible => "CLUSTERS_VISIBLE",
             Clusters::All => "CLUSTERS_ALL",
         };
+        let bounds = match self.bounds {
+            ClusterBounds::Cell => "BOUNDS_CELL",
+            ClusterBounds::Depth => "BOUNDS_DEPTH",
+            ClusterBounds::Box => "BOUNDS_BOX",
+        };
         Defines(vec![])
             .with("LOOKUP", self.lookup)
             .with("SPACE", space)
             .with("CLUSTERS", clusters)
+            .with("BOUNDS", bounds)
+            .with("SLICES", slices_define(self.slices))
             .with("SAMPLES", self.samples)
             .with("PER_SAMPLE", u32::from(self.per_sample()))
             .with("COUNTERS", u32::from(self.counting))
@@ -121,6 +132,17 @@ impl Variant {
             .with("TEST_SAT_V", u32::from(vertices))
             .with("TEST_NEAREST", u32::from(nearest))
             .with("TEST_BOUNDED", u32::from(self.test.is_bounded(boxes) && !self.has_models()))
+    }
+}
+
+/// The two geometric laws differ in numbers alone.
+fn slices_define(law: SliceLaw) -> &'static str {
+    match law {
+        SliceLaw::Geometric | SliceLaw::Cubes => "SLICES_GEOMETRIC",
+        SliceLaw::SecondPlane { .. } => "SLICES_SECOND_PLANE",
+        SliceLaw::Linear => "SLICES_LINEAR",
+        SliceLaw::UniformNdc => "SLICES_UNIFORM_NDC",
+        SliceLaw::UniformView => "SLICES_UNIFORM_VIEW",
     }
 }
 

@@ -5,16 +5,19 @@
 //! ```text
 //! DIR... ──> load ──> ResultSet ──┬─> figures ──> chart (SVG, CSV) ──┐        figures and claims: a folder a paper
 //!                                 ├─> claims ────────────────────────┼──> page (index.html)
-//!                                 ├─> tables ────────────────────────┤
+//!                                 ├─> tables, analysis ──────────────┤
 //!                                 └─> runs.csv
 //! OUT/
 //!   index.html           everything, in one file that opens offline
 //!   claims.json          the claims with the numbers behind them
 //!   runs.csv             statistics of every metric of every run
 //!   indi-encl.csv        Indi against Encl by every way of assignment; tests.csv: tests of light against cluster
+//!   analysis-times.csv, analysis-lines.csv, analysis-classes.csv
+//!                        means and deviations, slopes and offsets over lights, rankings of methods
 //!   figures/ID.svg .csv  each figure, and the numbers plotted
 //! ```
 
+mod analysis;
 pub mod assign_bench;
 mod bins;
 mod chart;
@@ -84,10 +87,11 @@ pub fn write_report(directories: &[PathBuf], out: Option<&Path>) -> Result<Repor
     let galleries = pictures::galleries(&set)?;
     let claims = claims(&set);
     let tables = tables::all(&set);
-    for figure in figures.iter().chain(&galleries) {
+    let analysis = page::Analysis { figures: analysis::figures(&set), tables: analysis::tables(&set) };
+    for figure in figures.iter().chain(&analysis.figures).chain(&galleries) {
         write_figure(&out.join("figures"), figure)?;
     }
-    for table in &tables {
+    for table in tables.iter().chain(&analysis.tables) {
         write_whole(&out.join(format!("{}.csv", table.id)), |file| table.write_csv(file))?;
     }
     write_whole(&out.join("runs.csv"), |file| page::write_runs_csv(file, &set))?;
@@ -97,7 +101,13 @@ pub fn write_report(directories: &[PathBuf], out: Option<&Path>) -> Result<Repor
     let page = out.join("index.html");
     let html = page::html(
         &set,
-        &page::Content { figures: &figures, galleries: &galleries, claims: &claims, tables: &tables },
+        &page::Content {
+            figures: &figures,
+            analysis: Some(&analysis),
+            galleries: &galleries,
+            claims: &claims,
+            tables: &tables,
+        },
     );
     write_whole(&page, |file| file.write_all(html.as_bytes()))?;
     let ids = |drawn: bool| {

@@ -28,7 +28,7 @@ pub fn box_grid(dimensions: [u32; 3]) -> Grid {
 pub fn frustum_grid(dimensions: [u32; 3]) -> Grid {
     let frustum = Frustum { x0: -1.2, x1: 1.0, y0: -0.7, y1: 0.9, z0: -100.0, z1: -0.4 };
     let ratio = (100.0f64 / 0.4).powf(1.0 / f64::from(dimensions[2])) - 1.0;
-    Grid { pose: pose(), space: ClusterSpace::Perspective { frustum, ratio }, dimensions }
+    Grid { pose: pose(), space: ClusterSpace::geometric(frustum, ratio), dimensions }
 }
 
 /// Falling lights, all of one radius.

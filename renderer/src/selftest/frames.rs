@@ -9,8 +9,9 @@ use crate::measure::{FrameCounts, ViewPixels};
 use crate::pass::Faults;
 use crate::{config::FrameRange, methods::Method};
 
-/// Brute force over all lights, the truth, the six methods of the default replay, and the others that are usual.
-pub const METHODS: [&str; 8] = [
+/// Brute force over all lights, the truth, the six methods of the default replay, tiles, and what else is done with clusters:
+/// all of them or visible ones, by their samples.
+pub const METHODS: [&str; 10] = [
     "all-lights",
     "indi-persp-64",
     "encl-persp-64",
@@ -19,6 +20,8 @@ pub const METHODS: [&str; 8] = [
     "indi-displ-64-32",
     "encl-displ-64-32",
     "tiled-16",
+    "t-e-28",
+    "sc-e-48-40",
 ];
 
 /// The frame of the recording, and pixels of a view: those of the golden counts.

@@ -1,5 +1,6 @@
 //! Resampling of blocks of neighbouring frames: what a single run has to offer.
 
+use super::sample::mean;
 use super::splits::below;
 use rand_pcg::Pcg32;
 
@@ -34,6 +35,16 @@ pub fn means(values: &[f64]) -> Option<Vec<f64>> {
     };
     let mut resample = || (0..blocks).map(|_| drawn()).sum::<f64>() / (blocks * block) as f64;
     Some((0..RESAMPLES).map(|_| resample()).collect())
+}
+
+/// Standard deviations of the same resamples.
+pub fn deviations(values: &[f64]) -> Option<Vec<f64>> {
+    let middle = mean(values.iter().copied())?;
+    // About the middle, so that little is lost to rounding.
+    let apart: Vec<f64> = values.iter().map(|value| value - middle).collect();
+    let squares: Vec<f64> = apart.iter().map(|value| value * value).collect();
+    let moments = means(&apart)?.into_iter().zip(means(&squares)?);
+    Some(moments.map(|(mean, square)| (square - mean * mean).max(0.0).sqrt()).collect())
 }
 
 #[cfg(test)]

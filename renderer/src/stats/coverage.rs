@@ -1,6 +1,6 @@
 //! Whether intervals hold the truth as often as they say, on noise of known making.
 
-use super::{Measured, Samples};
+use super::{Line, Measured, Samples};
 use rand_core::Rng;
 use rand_pcg::Pcg32;
 
@@ -95,6 +95,23 @@ fn means_cover_what_repetitions_give_on_average() {
             noise.samples(1.0, 0.03, &still(runs)).measure().interval().unwrap().contains(truth)
         });
         assert!(COVERED.contains(&part), "{runs} runs: {part}");
+    }
+}
+
+#[test]
+fn slopes_and_offsets_of_lines_cover_what_repetitions_give_on_average() {
+    // As above, of lines through times that grow evenly with x.
+    for (runs, least) in [(2, -0.5642), (3, -0.8463), (5, -1.1630), (10, -1.5388)] {
+        let base = Samples::new(FRAMES, vec![still_times()]).unwrap().measure().value * (1.0 + 0.03 * least);
+        let line = |noise: &mut Noise| {
+            let mut at = |x: f64| (x, noise.samples(1.0 + 0.2 * x, 0.03, &still(runs)).measure());
+            Line::through(&[at(1.0), at(3.0), at(10.0), at(30.0)]).unwrap()
+        };
+        let slope = covered(|noise| line(noise).slope.interval().unwrap().contains(0.2 * base));
+        let offset = covered(|noise| line(noise).offset.interval().unwrap().contains(base));
+        // Minima of halves vary up to 1.2 times as much as those of all runs: the intervals are on the safe side.
+        let safe = 0.93..=0.995;
+        assert!(safe.contains(&slope) && safe.contains(&offset), "{runs} runs: {slope} {offset}");
     }
 }
 

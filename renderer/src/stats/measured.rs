@@ -27,7 +27,7 @@ pub(super) enum Resampled {
     /// Of halves of the runs.
     Runs(Halves<f64>),
     /// Of so many frames drawn in blocks, many times.
-    Frames { frames: usize, means: Vec<f64> },
+    Frames { frames: usize, drawn: Vec<f64> },
     /// There is too little.
     Nothing,
 }
@@ -55,7 +55,7 @@ impl Measured {
     /// From where to where it lies in 95 % of repetitions.
     pub fn interval(&self) -> Option<Interval> {
         match &self.resampled {
-            Resampled::Frames { means, .. } => Some(percentiles(means)),
+            Resampled::Frames { drawn, .. } => Some(percentiles(drawn)),
             _ => self.noise().map(|noise| Interval::around(self.value, noise.half_width(LEVEL))),
         }
     }
@@ -72,11 +72,11 @@ impl Measured {
                     false => Resampled::Nothing,
                 }
             }
-            Resampled::Frames { frames, ref means } => {
-                let all = parts.map(|part| part.means_of(frames));
-                let drawn = |draw: usize| of(all.map(|means| means.unwrap_or(&[])[draw]));
+            Resampled::Frames { frames, ref drawn } => {
+                let all = parts.map(|part| part.drawn_of(frames));
+                let computed = |draw: usize| of(all.map(|drawn| drawn.unwrap_or(&[])[draw]));
                 match all.iter().all(Option::is_some) {
-                    true => Resampled::Frames { frames, means: (0..means.len()).map(drawn).collect() },
+                    true => Resampled::Frames { frames, drawn: (0..drawn.len()).map(computed).collect() },
                     false => Resampled::Nothing,
                 }
             }
@@ -103,9 +103,9 @@ impl Measured {
         }
     }
 
-    fn means_of(&self, wanted: usize) -> Option<&[f64]> {
+    fn drawn_of(&self, wanted: usize) -> Option<&[f64]> {
         match &self.resampled {
-            Resampled::Frames { frames, means } if *frames == wanted => Some(means),
+            Resampled::Frames { frames, drawn } if *frames == wanted => Some(drawn),
             _ => None,
         }
     }

@@ -2,8 +2,9 @@
 //!
 //! ```text
 //! times[run][stage][frame] ──> Samples ──┬─> measure ────────> Measured ──┬─> interval        (of a mean)
-//!                                        │    (splits of the runs, or,    ├─> ratio_to        (paired)
-//!                                        │     of one run, blocks)        ├─> combine         (of any function)
+//!                                        ├─> deviation ──────────^        ├─> ratio_to        (paired)
+//!                                        │    (splits of the runs, or,    ├─> combine         (of any function)
+//!                                        │     of one run, blocks)        ├─> Line            (slope, offset)
 //!                                        └─> halves (per frame)           └─> Noise ──> with  (of two sets)
 //! ```
 //!
@@ -41,6 +42,7 @@
 //! a second.
 
 mod blocks;
+mod line;
 mod measured;
 mod noise;
 mod sample;
@@ -51,6 +53,7 @@ mod student;
 #[cfg(test)]
 mod coverage;
 
+pub use line::Line;
 pub use measured::{Basis, Measured};
 pub use noise::{Halves, Interval, LEVEL, Noise};
 pub use sample::{Statistics, mean, percentile, slope};

@@ -19,15 +19,20 @@ impl Statistics {
         let mut sorted: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
         sorted.sort_by(f64::total_cmp);
         let mean = mean(sorted.iter().copied())?;
-        let square = |value: &f64| (value - mean).powi(2);
-        let variance = sorted.iter().map(square).sum::<f64>() / sorted.len() as f64;
         Some(Self {
             mean,
             median: percentile(&sorted, 0.5),
             p95: percentile(&sorted, 0.95),
-            deviation: variance.sqrt(),
+            deviation: deviation(&sorted),
         })
     }
+}
+
+/// Standard deviation of values, of which there is one at least, as the whole population.
+pub(super) fn deviation(values: &[f64]) -> f64 {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let square = |value: &f64| (value - mean).powi(2);
+    (values.iter().map(square).sum::<f64>() / values.len() as f64).sqrt()
 }
 
 /// Arithmetic mean; `None` of nothing.

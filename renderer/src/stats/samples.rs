@@ -3,6 +3,7 @@
 use super::blocks;
 use super::measured::{Measured, Resampled};
 use super::noise::Halves;
+use super::sample::deviation;
 use super::splits::splits;
 
 /// Times of one metric: of each temporal run, of each stage that the metric sums, of each frame.
@@ -46,13 +47,24 @@ impl Samples {
 
     /// The mean over frames, with what tells its noise.
     pub fn measure(&self) -> Measured {
+        self.number(|frames| self.mean(frames), blocks::means)
+    }
+
+    /// The standard deviation over frames, which are the whole population, with what tells its noise. What frames differ
+    /// by because of the noise of measuring is part of it.
+    pub fn deviation(&self) -> Measured {
+        self.number(deviation, blocks::deviations)
+    }
+
+    /// A number of all frames, and the same of halves of the runs or, of one run, of its blocks.
+    fn number(&self, of: impl Fn(&[f64]) -> f64, of_blocks: impl Fn(&[f64]) -> Option<Vec<f64>>) -> Measured {
         let minima = self.minima();
         let resampled = match self.runs() {
-            1 => blocks::means(&minima)
-                .map_or(Resampled::Nothing, |means| Resampled::Frames { frames: self.frames, means }),
-            _ => Resampled::Runs(self.halves().map(|frames| self.mean(frames))),
+            1 => of_blocks(&minima)
+                .map_or(Resampled::Nothing, |drawn| Resampled::Frames { frames: self.frames, drawn }),
+            _ => Resampled::Runs(self.halves().map(|frames| of(frames))),
         };
-        Measured::new(self.mean(&minima), resampled)
+        Measured::new(of(&minima), resampled)
     }
 
     fn mean(&self, frames: &[f64]) -> f64 {
@@ -87,6 +99,19 @@ mod tests {
         assert_eq!(samples.measure().value, 15.0);
         assert_eq!(samples.halves().pairs, [[vec![11.0, 28.0], vec![7.0, 34.0]]]);
         assert_eq!(samples.first(1).minima(), [11.0, 28.0]);
+    }
+
+    #[test]
+    fn deviations_are_of_the_frames_of_the_minima_and_of_each_half() {
+        let samples = Samples::new(2, vec![vec![1.0, 9.0], vec![3.0, 5.0]]).unwrap();
+        let deviation = samples.deviation();
+        assert_eq!(deviation.value, 2.0, "of 1 and 5");
+        // One run's is 4, the other's 1.
+        assert!((deviation.noise().unwrap().deviation - 3.0 / 2.0_f64.sqrt()).abs() < 1e-12);
+        let one = Samples::new(64, vec![(0..64).map(|place| f64::from(place % 8)).collect()]).unwrap();
+        assert!((one.deviation().value - 5.25_f64.sqrt()).abs() < 1e-12);
+        let interval = one.deviation().interval().unwrap();
+        assert!(interval.half() < 1e-9 && (interval.low - 5.25_f64.sqrt()).abs() < 1e-9, "whole periods");
     }
 
     #[test]

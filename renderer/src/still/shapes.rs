@@ -77,7 +77,7 @@ mod tests {
         let lines = frusta(&[], &[boxed]);
         assert!(lines.iter().all(|line| glam::Vec3::from(line.from).distance(line.to.into()) == 2.0));
         let frustum = Frustum { x0: -1.0, x1: 1.0, y0: -1.0, y1: 1.0, z0: -132.0, z1: -32.4 };
-        let space = ClusterSpace::Perspective { frustum, ratio: 0.1 };
+        let space = ClusterSpace::geometric(frustum, 0.1);
         let displaced = Grid { pose: Pose::IDENTITY, space, dimensions: [1; 3] };
         assert_eq!(frusta(&[], &[displaced]).len(), 16);
     }

@@ -38,7 +38,7 @@ pub fn ladder(named: &Method) -> Vec<Method> {
         let with = |step: f64| products.iter().map(move |sizes| [sizes.as_slice(), &[step]].concat());
         steps.iter().flat_map(|&step| with(step)).collect()
     });
-    products.iter().map(|sizes| kind.with_sizes(sizes)).collect()
+    products.iter().filter(|sizes| kind.takes(sizes)).map(|sizes| kind.with_sizes(sizes)).collect()
 }
 
 /// A part of a size of this name; of cells that are counted, the count whose cells are that part as wide.
@@ -59,15 +59,17 @@ fn makes_sense(name: &str, size: f64) -> bool {
 pub fn chain(run: &PlannedRun) -> String {
     let sizes = run.method.sizes();
     let others = sizes.get(1..).unwrap_or_default();
-    format!("{others:?} {} {} {:?}", run.assign, run.test, run.config.clusters)
+    let Config { clusters, bounds, slices, .. } = &run.config;
+    format!("{others:?} {} {} {clusters:?} {bounds:?} {slices:?}", run.assign, run.test)
 }
 
-/// The runs that are tried in place of `named`, with ways of assignment, tests and choices of clusters as the
-/// configuration has them; and how many combinations cannot be, by a test that does not serve the method or by a rule.
+/// The runs that are tried in place of `named`, with ways of assignment, tests and choices of clusters, bounds and slices
+/// as the configuration has them; and how many combinations cannot be, by a test that does not serve the method or by a rule.
 pub fn candidates(named: &PlannedRun, config: &Config) -> (Vec<PlannedRun>, usize) {
-    let Config { assign, test, clusters, .. } = config.clone();
+    let Config { assign, test, clusters, bounds, slices, .. } = config.clone();
     let methods = ladder(&named.method);
-    let all = planned_runs(&Config { methods, assign, test, clusters, ..named.config.clone() });
+    let all =
+        planned_runs(&Config { methods, assign, test, clusters, bounds, slices, ..named.config.clone() });
     let ruled_out = |run: &PlannedRun| config.exclude.iter().any(|rule: &Exclude| rule.matches(&run.config));
     let count = all.len();
     let left: Vec<_> = all.into_iter().filter(|run| run.check().is_ok() && !ruled_out(run)).collect();
@@ -97,6 +99,8 @@ mod tests {
         assert_eq!(names("g-20"), ["g-10", "g-13", "g-20", "g-27", "g-40", "g-53"]);
         assert_eq!(names("g-1"), ["g-1", "g-2", "g-3", "g-4", "g-5", "g-8"]);
         assert_eq!(names("all-lights"), ["all-lights"]);
+        let slices = ["sc-e-8-20", "sc-e-4-20", "sc-e-8-10", "sc-e-4-10", "sc-e-8-5", "sc-e-4-5"];
+        assert_eq!(names("sc-e-4-10"), slices, "slices are whole");
     }
 
     #[test]

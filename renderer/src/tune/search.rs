@@ -82,8 +82,15 @@ impl Problem<'_> {
     /// The method as named: what an automatic assignment chooses is settled here, once.
     fn named(&self, timer: &mut Timer) -> Result<PlannedRun> {
         let of = |assign| {
-            let clusters = self.config.clusters[..1].to_vec();
-            let config = Config { assign: vec![assign], test: vec![Test::Auto], clusters, ..self.of.clone() };
+            let Config { clusters, bounds, slices, .. } = &self.config;
+            let config = Config {
+                assign: vec![assign],
+                test: vec![Test::Auto],
+                clusters: clusters[..1].to_vec(),
+                bounds: bounds[..1].to_vec(),
+                slices: slices[..1].to_vec(),
+                ..self.of.clone()
+            };
             planned_runs(&config).remove(0)
         };
         let run = of(Assign::Auto);
@@ -94,9 +101,11 @@ impl Problem<'_> {
 
 /// Whether two runs do the same.
 fn same(a: &PlannedRun, b: &PlannedRun) -> bool {
-    let has_lists = a.method.has_lists();
-    a.method == b.method
-        && (!has_lists || (a.assign, a.test) == (b.assign, b.test) && a.config.clusters == b.config.clusters)
+    let ways = |run: &PlannedRun| {
+        let Config { clusters, bounds, slices, .. } = run.config.clone();
+        (run.assign, run.test, clusters, bounds, slices)
+    };
+    a.method == b.method && (!a.method.has_lists() || ways(a) == ways(b))
 }
 
 struct Candidates<'c> {

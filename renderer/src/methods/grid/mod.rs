@@ -1,13 +1,14 @@
-//! Methods that group fragments by the cells of a grid. They differ in four ways that do not depend on each other:
+//! Methods that group fragments by the cells of a grid. They differ in ways that do not depend on each other:
 //!
-//! | | |
-//! | --- | --- |
-//! | grouping | [`Space`]: what the cells are; [`Sharing`]: whose grid it is |
-//! | groups with lists | [`crate::assign::Clusters`], of the configuration: those that hold a fragment, or all |
-//! | bounds tested against lights | [`ClusterBounds`] |
-//! | list store | [`ListStore`] |
+//! | | | |
+//! | --- | --- | --- |
+//! | grouping | [`Space`]: what the cells are; [`Sharing`]: whose grid it is | the name's |
+//! | depths between slices | [`SliceLaw`] | the configuration's, else geometric |
+//! | groups with lists | [`Clusters`]: those that hold a fragment, or all | the configuration's, else the name's |
+//! | bounds tested against lights | [`Bounds`] | the configuration's, else the name's |
+//! | list store | [`ListStore`] | |
 //!
-//! [`plan()`] makes the grids, [`capacities`] sizes their buffers, [`record()`] runs their passes, `lookup/clustered.glsl` walks
+//! [`GridMethod::plan`] makes the grids, [`capacities`] sizes their buffers, [`record()`] runs their passes, `lookup/clustered.glsl` walks
 //! their lists, [`twin`] does the same on the CPU. What the assignment works with is in [`crate::assign`].
 
 mod plan;
@@ -20,12 +21,15 @@ mod properties;
 #[cfg(test)]
 mod worked_values;
 
-pub use plan::plan;
+pub use plan::{Division, plan};
 pub use record::{light_lists, record};
 pub use resources::capacities;
 
 use super::Sharing;
+use crate::assign::{Bounds, ClusterBounds, Clusters};
 use crate::geometry::CellShape;
+#[cfg(doc)]
+use crate::geometry::SliceLaw;
 use std::mem::discriminant;
 
 /// What the cells of a grid are (Gelderen sections 3.1, 4.2, 4.3).
@@ -48,10 +52,17 @@ pub enum Space {
         /// How far the apex moves back, metres.
         displacement: f64,
     },
-    /// Tiles of the screen: a perspective grid of one slice over the whole depth.
+    /// Tiles of the screen: those of [`Self::Sliced`] in one slice over the whole depth.
     Tiled {
         /// Tile side, pixels.
         pixels: f64,
+    },
+    /// Tiles of the screen, each divided into slices (Enhuber section 3.2).
+    Sliced {
+        /// Tile side, pixels.
+        pixels: f64,
+        /// How many slices there are; a whole number.
+        slices: f64,
     },
 }
 
@@ -62,23 +73,37 @@ impl Space {
             Self::Persp { pixels } | Self::Tiled { pixels } => vec![pixels],
             Self::Ortho { metres } => vec![metres],
             Self::Displ { pixels, displacement } => vec![pixels, displacement],
+            Self::Sliced { pixels, slices } => vec![pixels, slices],
         }
     }
 
     /// What its cells look like.
     pub fn shape(&self) -> CellShape {
         match self {
-            Self::Persp { .. } | Self::Displ { .. } | Self::Tiled { .. } => CellShape::Frustum,
+            Self::Persp { .. } | Self::Displ { .. } | Self::Tiled { .. } | Self::Sliced { .. } => {
+                CellShape::Frustum
+            }
             Self::Ortho { .. } => CellShape::Box,
         }
     }
-}
 
-/// What of a cluster is tested against lights.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ClusterBounds {
-    /// The cell of the grid.
-    Implicit,
+    /// What is kept of a cluster where its samples are measured.
+    pub fn measured_bounds(&self) -> ClusterBounds {
+        match self {
+            Self::Tiled { .. } => ClusterBounds::Depth,
+            Self::Persp { .. } | Self::Displ { .. } | Self::Sliced { .. } | Self::Ortho { .. } => {
+                ClusterBounds::Box
+            }
+        }
+    }
+
+    /// Whether a law says where slices begin: tiles have but one, and boxes stand in rows.
+    pub fn has_slices(&self) -> bool {
+        match self {
+            Self::Persp { .. } | Self::Displ { .. } | Self::Sliced { .. } => true,
+            Self::Ortho { .. } | Self::Tiled { .. } => false,
+        }
+    }
 }
 
 /// How the lists of clusters lie in memory.
@@ -95,22 +120,25 @@ pub struct GridMethod {
     pub sharing: Sharing,
     /// Space that the cells divide.
     pub space: Space,
-    /// What of the clusters is tested against lights.
-    pub bounds: ClusterBounds,
+    /// Which clusters get lists where the configuration leaves it to the name.
+    pub clusters: Clusters,
+    /// What of the clusters is tested against lights where the configuration leaves it to the name.
+    pub bounds: Bounds,
     /// How the lists of the clusters lie in memory.
     pub lists: ListStore,
 }
 
 impl GridMethod {
-    /// The method with implicit bounds and lists by offsets.
+    /// The method with lists by offsets for visible clusters, and implicit bounds.
     pub const fn new(sharing: Sharing, space: Space) -> Self {
-        Self { sharing, space, bounds: ClusterBounds::Implicit, lists: ListStore::Offsets }
+        let (clusters, bounds) = (Clusters::Visible, Bounds::Implicit);
+        Self { sharing, space, clusters, bounds, lists: ListStore::Offsets }
     }
 
     /// Whether the two differ in their sizes alone.
     pub fn is_like(&self, other: &Self) -> bool {
-        let Self { sharing, space, bounds, lists } = *self;
-        (sharing, bounds, lists) == (other.sharing, other.bounds, other.lists)
+        let Self { sharing, space, clusters, bounds, lists } = *self;
+        (sharing, clusters, bounds, lists) == (other.sharing, other.clusters, other.bounds, other.lists)
             && discriminant(&space) == discriminant(&other.space)
     }
 }

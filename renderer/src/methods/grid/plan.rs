@@ -1,10 +1,10 @@
 //! From a method and the views of a frame to its clustering grids.
 
-use super::Space;
+use super::{GridMethod, Space};
 use crate::geometry::views::{Pose, View, common_mirror, head_space};
 use crate::geometry::{
-    ClusterSpace, DisplacedVolume, Frustum, Grid, PerspectiveDimensions, average_volume, displaced,
-    enclosing, from_metres, from_pixels, from_volume, tiles_from_pixels,
+    ClusterSpace, DisplacedVolume, Frustum, Grid, PerspectiveDimensions, SliceLaw, average_volume, displaced,
+    enclosing, from_metres, from_pixels, from_volume, sliced_tiles,
 };
 use crate::methods::{Method, Sharing};
 use crate::{Error, Result};
@@ -18,28 +18,51 @@ const LARGEST_SIZE: f64 = 1e6;
 const MOST_SLICES: f64 = 1e5;
 const THINNEST_SLICE: f64 = 1e-5;
 
-/// Plans the clusterings of a frame: one grid a view for [`Sharing::Indi`], in the order of the views, one
-/// grid in all for [`Sharing::Encl`].
-///
-/// `resolution` is that of each view in pixels (width, height). `volume` says which frustum sizes the
-/// clusters of [`Space::Displ`]; with [`Sharing::Encl`], volumes are averaged over the views, each by itself.
+/// How grids are divided, beyond what a method's name says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Division {
+    /// Which frustum sizes the clusters of [`Space::Displ`]; with [`Sharing::Encl`], volumes are averaged over the views, each
+    /// by itself.
+    pub volume: DisplacedVolume,
+    /// Where slices begin, where there are several.
+    pub slices: SliceLaw,
+}
+
+impl From<DisplacedVolume> for Division {
+    /// With geometric slices.
+    fn from(volume: DisplacedVolume) -> Self {
+        Self { volume, slices: SliceLaw::Geometric }
+    }
+}
+
+/// Plans the clusterings of a frame as [`GridMethod::plan`] does, for visible clusters and with implicit bounds.
 ///
 /// # Errors
-/// No views, an invalid view, a zero resolution, a size or displacement that is not a positive number, views
-/// that no frustum encloses, and a grid of more clusters than a u32 can index.
+/// As there.
 pub fn plan(
     space: Space,
     sharing: Sharing,
     views: &[View],
     resolution: [u32; 2],
-    volume: DisplacedVolume,
+    division: impl Into<Division>,
 ) -> Result<Vec<Grid>> {
-    let name = Method::grid(sharing, space);
-    let planner = Planner { name, space, resolution, volume };
-    planner.check(views)?;
-    match sharing {
-        Sharing::Indi => views.iter().map(|view| planner.individual(view)).collect(),
-        Sharing::Encl => Ok(vec![planner.enclosing(views)?]),
+    GridMethod::new(sharing, space).plan(views, resolution, division.into())
+}
+
+impl GridMethod {
+    /// Plans the clusterings of a frame: one grid a view for [`Sharing::Indi`], in the order of the views, one grid in all for
+    /// [`Sharing::Encl`]. `resolution` is that of each view in pixels (width, height).
+    ///
+    /// # Errors
+    /// No views, an invalid view, a zero resolution, a size or displacement that is not a positive number, views that no
+    /// frustum encloses, slices that their law cannot make, and a grid of more clusters than a u32 can index.
+    pub fn plan(&self, views: &[View], resolution: [u32; 2], division: Division) -> Result<Vec<Grid>> {
+        let planner = Planner { name: Method::Grid(*self), space: self.space, resolution, division };
+        planner.check(views)?;
+        match self.sharing {
+            Sharing::Indi => views.iter().map(|view| planner.individual(view)).collect(),
+            Sharing::Encl => Ok(vec![planner.enclosing(views)?]),
+        }
     }
 }
 
@@ -47,7 +70,7 @@ struct Planner {
     name: Method,
     space: Space,
     resolution: [u32; 2],
-    volume: DisplacedVolume,
+    division: Division,
 }
 
 impl Planner {
@@ -77,16 +100,19 @@ impl Planner {
                 let counts = from_pixels(frustum, self.resolution, pixels);
                 self.perspective(view.pose, self.grown(frustum, pixels, &counts), counts)
             }
-            Space::Tiled { pixels } => {
-                let counts = tiles_from_pixels(frustum, self.resolution, pixels);
-                self.perspective(view.pose, self.grown(frustum, pixels, &counts), counts)
-            }
+            Space::Tiled { pixels } => self.sliced(view, pixels, 1.0),
+            Space::Sliced { pixels, slices } => self.sliced(view, pixels, slices),
             Space::Ortho { metres } => self.orthographic(view.pose, std::slice::from_ref(view), metres),
             Space::Displ { pixels, displacement } => {
                 let volume = self.displaced_cluster_volume(frustum, pixels, displacement);
                 self.displaced(view.pose, frustum, displacement, volume)
             }
         }
+    }
+
+    fn sliced(&self, view: &View, pixels: f64, slices: f64) -> Result<Grid> {
+        let counts = sliced_tiles(&view.frustum, self.resolution, pixels, slices);
+        self.perspective(view.pose, self.grown(&view.frustum, pixels, &counts), counts)
     }
 
     fn enclosing(&self, views: &[View]) -> Result<Grid> {
@@ -100,7 +126,9 @@ impl Planner {
                 let (pose, frustum) = self.enclosing_frustum(&head, views)?;
                 self.perspective(pose, frustum, from_volume(&frustum, volume))
             }
-            Space::Tiled { .. } => Err(self.error("tiles divide the screen of one view and are not shared")),
+            Space::Tiled { .. } | Space::Sliced { .. } => {
+                Err(self.error("tiles divide the screen of one view and are not shared"))
+            }
             Space::Ortho { metres } => self.orthographic(head, views, metres),
             Space::Displ { pixels, displacement } => {
                 let volume = mean(&|frustum| self.displaced_cluster_volume(frustum, pixels, displacement));
@@ -129,7 +157,7 @@ impl Planner {
     /// The cluster volume that Displ aims at.
     fn displaced_cluster_volume(&self, frustum: &Frustum, pixels: f64, displacement: f64) -> f64 {
         let counts = from_pixels(frustum, self.resolution, pixels);
-        match self.volume {
+        match self.division.volume {
             DisplacedVolume::View => average_volume(frustum, &counts),
             DisplacedVolume::Own => average_volume(&displaced(frustum, displacement).1, &counts),
         }
@@ -149,15 +177,31 @@ impl Planner {
     }
 
     fn perspective(&self, pose: Pose, frustum: Frustum, counts: PerspectiveDimensions) -> Result<Grid> {
-        let PerspectiveDimensions { dimensions, ratio } = counts;
-        let slices = dimensions.z;
-        if slices > MOST_SLICES || (slices > 1.0 && ratio < THINNEST_SLICE) {
+        let law = if self.space.has_slices() { self.division.slices } else { SliceLaw::Geometric };
+        self.check_law(law, &frustum, counts.dimensions.z)?;
+        let (slices, dimensions) = counts.by_law(law, &frustum);
+        let (count, thinnest) = (dimensions.z, slices.thinnest(dimensions.z));
+        if count > MOST_SLICES || (count > 1.0 && thinnest < THINNEST_SLICE) {
             return Err(self.error(&format!(
-                "{slices} slices, each {ratio:.1e} of its depth thick, are more than {MOST_SLICES} or thinner than \
+                "{count} slices, from {thinnest:.1e} of their depth thick, are more than {MOST_SLICES} or thinner than \
                  {THINNEST_SLICE:e}, which single precision does not tell apart; choose a larger size"
             )));
         }
-        self.grid(pose, ClusterSpace::Perspective { frustum, ratio }, dimensions)
+        self.grid(pose, ClusterSpace::Perspective { frustum, slices }, dimensions)
+    }
+
+    /// A second plane needs a slice behind it.
+    fn check_law(&self, law: SliceLaw, frustum: &Frustum, count: f64) -> Result<()> {
+        match law {
+            SliceLaw::SecondPlane { metres } if metres >= frustum.far() || count < 2.0 => {
+                let far = frustum.far();
+                Err(self.error(&format!(
+                    "slices {law}: of {count} slices up to {far} m the first cannot end at {metres} m; there must be at \
+                     least 2, and the plane before the far one"
+                )))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Bounds, in `space`, of all corners of all views.

@@ -1,16 +1,16 @@
 //! The passes of a method of grids: from depth to visible clusters to light lists, clustering by clustering.
 //!
 //! ```text
-//! Depth ──mark, compact──> VisibleClusters ─┐
-//! (all clusters) ──list_clusters────────────┤
-//! Lights ──transform, cull, build───────────┴──count, offsets, assign──> LightLists
+//! Depth ──mark, compact──> VisibleClusters ─┬─(bounds)─┐
+//! (all clusters) ──list_clusters────────────┘          │
+//! Lights ──transform, cull, build──────────────────────┴──count, offsets, assign──> LightLists
 //! ```
 
-use crate::assign::{Assigner, Clusters};
+use crate::assign::{Assigner, ClusterBounds, Clusters};
 use crate::pass::Recorder;
 use crate::passes::{
-    Depth, Frame, LightLists, Lights, VisibleClusters, assign, cull_lights, depth, hierarchy, list_clusters,
-    mark, scan,
+    Depth, Frame, LightLists, Lights, VisibleClusters, assign, bounds, cull_lights, depth, hierarchy,
+    list_clusters, mark, scan,
 };
 
 /// Records all clusterings; the depth that comes back is what marking needed of it.
@@ -21,6 +21,10 @@ pub fn record(r: &mut Recorder, frame: &Frame, lights: Lights) -> (Depth, LightL
             let (depth, visible) = match frame.clusters {
                 Clusters::Visible => visible_clusters(r, frame, clustering, made.0),
                 Clusters::All => (made.0, list_clusters::record(r, frame, clustering)),
+            };
+            let depth = match frame.bounds {
+                ClusterBounds::Cell => depth,
+                ClusterBounds::Depth | ClusterBounds::Box => measured_bounds(r, frame, (depth, visible)),
             };
             made = (depth, made.1 | light_lists(r, frame, lights, visible));
         });
@@ -33,18 +37,33 @@ fn visible_clusters(
     r: &mut Recorder,
     frame: &Frame,
     clustering: usize,
-    mut depth: Depth,
+    depth: Depth,
 ) -> (Depth, VisibleClusters) {
-    let views = frame.clusterings[clustering].views.clone();
-    for eyes in frame.eyes_of(views.clone()) {
+    let depth = prepass(r, frame, clustering, depth);
+    for view in frame.clusterings[clustering].views.clone() {
+        mark::record(r, frame, (clustering, view), depth);
+    }
+    (depth, scan::compact(r, frame, clustering))
+}
+
+/// The depth of the clustering's views, where it is not there yet.
+fn prepass(r: &mut Recorder, frame: &Frame, clustering: usize, mut depth: Depth) -> Depth {
+    for eyes in frame.eyes_of(frame.clusterings[clustering].views.clone()) {
         if !depth.covers(frame, eyes) {
             depth = depth | depth::record(r, frame, eyes);
         }
     }
-    for view in views {
-        mark::record(r, frame, (clustering, view), depth);
+    depth
+}
+
+/// What the samples of visible clusters take of their cells, with the depth that tells.
+fn measured_bounds(r: &mut Recorder, frame: &Frame, (depth, visible): (Depth, VisibleClusters)) -> Depth {
+    let clustering = visible.clustering();
+    let depth = prepass(r, frame, clustering, depth);
+    for view in frame.clusterings[clustering].views.clone() {
+        bounds::record(r, frame, view, (depth, visible));
     }
-    (depth, scan::compact(r, frame, clustering))
+    depth
 }
 
 /// The light lists of the visible clusters.

@@ -158,7 +158,7 @@ fn persp_starts_at_the_first_pixel_and_grows_the_far_sides() {
     assert!((grown.x1 - seen.x1).abs() < 1e-12, "10 columns of 64 fill 640 pixels");
     let row = grown.size().y / 12.0;
     assert!((row - seen.size().y * 64.0 / 720.0).abs() < 1e-12, "12 rows of 64 are more than 720 pixels");
-    let ClusterSpace::Perspective { ratio, .. } = grid.space else { unreachable!() };
-    let slices = f64::from(grid.dimensions[2]);
-    assert!((0.4 * (1.0 + ratio).powf(slices) - 100.0).abs() < 1e-9, "the slices end at the far plane");
+    let ClusterSpace::Perspective { slices, .. } = grid.space else { unreachable!() };
+    let last = slices.depth_at(grid.dimensions[2].into());
+    assert!((last - 100.0).abs() < 1e-9, "the slices end at the far plane");
 }

@@ -1,5 +1,6 @@
 //! A chart as SVG.
 
+use super::bars;
 use super::layout::Layout;
 use super::marks;
 use super::palette::{self, VIRIDIS, hex, logarithmic};
@@ -68,7 +69,7 @@ impl Chart {
         for &(index, [x, y]) in &layout.keys {
             let key = &self.legend[index];
             let middle = y + 10.0;
-            let areas = self.drawn().any(|(_, _, plot)| matches!(plot, Plot::Stack(_)));
+            let areas = self.drawn().any(|(_, _, plot)| matches!(plot, Plot::Stack(_) | Plot::Bars(_)));
             if areas {
                 svg.rect(&format!("f-{}", key.look.color), [x + 10.0, middle - 6.0, 12.0, 12.0]);
             } else {
@@ -106,6 +107,11 @@ impl Chart {
             return;
         }
         svg.rect("back", frame);
+        if let Plot::Bars(all) = plot {
+            bars::draw(svg, all, frame);
+            svg.close("g");
+            return;
+        }
         let axes = self.axes(plot, frame);
         let is_last = (row + 1..self.rows.len()).all(|below| self.panel(below, column).is_none());
         self.x_axis(svg, axes.x, frame, is_last);
@@ -120,7 +126,7 @@ impl Chart {
                 y_axis(svg, axes.y, frame);
             }
             Plot::Heat(heat) => draw_heat(svg, heat, axes.x, frame),
-            Plot::Picture(_) => {}
+            Plot::Bars(_) | Plot::Picture(_) => {}
         }
         svg.close("g");
     }
@@ -153,7 +159,7 @@ impl Chart {
             }
             Plot::Stack(stack) => nice_top(stack.top, Y_TICKS),
             Plot::Heat(heat) => heat.rows as f64,
-            Plot::Picture(_) => 1.0,
+            Plot::Bars(_) | Plot::Picture(_) => 1.0,
         };
         Axes {
             x: Scale { logarithmic: false, domain: self.x_domain(), range: [left, left + width] },
@@ -167,7 +173,7 @@ impl Chart {
             Plot::Lines(series) => ends(series.iter().flat_map(|s| s.points.iter().map(|p| p[0])), 0.0),
             Plot::Stack(stack) => ends(stack.parts.iter().flat_map(|s| s.points.iter().map(|p| p[0])), 0.0),
             Plot::Heat(heat) => ends(heat.x.iter().copied(), half_step(&heat.x)),
-            Plot::Picture(_) => [f64::INFINITY, f64::NEG_INFINITY],
+            Plot::Bars(_) | Plot::Picture(_) => [f64::INFINITY, f64::NEG_INFINITY],
         });
         let [low, high] = ends
             .fold([f64::INFINITY, f64::NEG_INFINITY], |all, one| [all[0].min(one[0]), all[1].max(one[1])]);

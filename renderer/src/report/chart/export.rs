@@ -5,10 +5,11 @@ use super::layout::Layout;
 use super::{Chart, Heat, Plot, Series};
 use crate::report::bins;
 use serde_json::{Value, json};
+use std::fmt::Display;
 use std::io::{self, Write};
 
 impl Chart {
-    /// Every number drawn: `row,column,series,x,value` under the chart's own names.
+    /// Every number drawn: `row,column,series,x,value` under the chart's own names; the x of a bar is its label.
     ///
     /// # Errors
     /// The writer fails.
@@ -18,23 +19,30 @@ impl Chart {
         csv.write_record([row, column, series, x, "value"])?;
         for (row, column, plot) in self.drawn() {
             let head = [self.rows[row].as_str(), self.columns[column].as_str()];
-            let mut write = |series: &str, x: f64, value: &str| {
+            let mut write = |series: &str, x: &dyn Display, value: &str| {
                 csv.write_record([head[0], head[1], series, &x.to_string(), value])
             };
             match plot {
                 Plot::Lines(all) | Plot::Stack(super::Stack { parts: all, .. }) => {
                     for series in all {
                         for [x, y] in &series.points {
-                            write(&series.name, *x, &y.to_string())?;
+                            write(&series.name, x, &y.to_string())?;
                         }
                     }
                 }
                 Plot::Heat(heat) => {
                     for (x, bin, count) in cells(heat) {
-                        write(&range(bin), x, &count.to_string())?;
+                        write(&range(bin), &x, &count.to_string())?;
                     }
                 }
-                Plot::Picture(picture) => write(&picture.alt, f64::from(picture.frame), &picture.file)?,
+                Plot::Bars(bars) => {
+                    for bar in bars {
+                        for (part, value) in &bar.parts {
+                            write(&part.label, &bar.label, &value.to_string())?;
+                        }
+                    }
+                }
+                Plot::Picture(picture) => write(&picture.alt, &picture.frame, &picture.file)?,
             }
         }
         csv.flush()
@@ -52,7 +60,7 @@ impl Chart {
                     Plot::Lines(series) => lines(series, false),
                     Plot::Stack(stack) => lines(&stack.parts, true),
                     Plot::Heat(heat) => heat_data(heat),
-                    Plot::Picture(_) => return None,
+                    Plot::Bars(_) | Plot::Picture(_) => return None,
                 };
                 panel["at"] = json!([row, column]);
                 panel["frame"] = json!(frame.map(|place| (place * 10.0).round() / 10.0));

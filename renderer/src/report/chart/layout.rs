@@ -1,6 +1,6 @@
 //! Where the parts of a chart are, in units of its view box.
 
-use super::{Chart, Plot};
+use super::{Chart, Plot, bars};
 
 /// Width of a chart of three columns; of fewer it is narrower.
 const FULL_WIDTH: f64 = 1080.0;
@@ -85,6 +85,7 @@ fn panel_height(chart: &Chart, width: f64) -> f64 {
         Plot::Picture(_) => lowest,
         Plot::Heat(_) => 190.0,
         Plot::Stack(_) => 140.0,
+        Plot::Bars(all) => bars::height(all.len()),
         Plot::Lines(_) if chart.logarithmic || chart.rows.len() == 1 => 300.0,
         Plot::Lines(_) => 124.0,
     });

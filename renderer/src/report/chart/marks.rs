@@ -25,6 +25,10 @@ pub fn lines(svg: &mut Svg, series: &[Series], x: Scale, y: Scale) {
     // The heavier ones last, upon the others.
     let (heavy, light): (Vec<&Series>, Vec<&Series>) = series.iter().partition(|series| series.look.bold);
     for series in light.into_iter().chain(heavy) {
+        if series.look.dots {
+            dots(svg, series, x, y);
+            continue;
+        }
         let mut d = path(series.points.iter().map(|&[px, py]| [x.at(px), y.at(py)]));
         if series.points.len() == 1 {
             d.push_str("h6");
@@ -32,6 +36,14 @@ pub fn lines(svg: &mut Svg, series: &[Series], x: Scale, y: Scale) {
         if !d.is_empty() {
             svg.path(&format!("mark-line {}", line_class(series.look)), &d);
         }
+    }
+}
+
+fn dots(svg: &mut Svg, series: &Series, x: Scale, y: Scale) {
+    for &[px, py] in &series.points {
+        let (left, middle) = (place(x.at(px) - 3.5), place(y.at(py)));
+        let circle = format!("M{left} {middle}a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0 -7 0");
+        svg.path(&format!("mark-line f-{}", series.look.color), &circle);
     }
 }
 

@@ -1,6 +1,7 @@
-//! Small multiples as plain SVG: a grid of panels of lines, stacked areas, heat maps or pictures, with axes, ticks and
+//! Small multiples as plain SVG: a grid of panels of lines, stacked areas, bars, heat maps or pictures, with axes, ticks and
 //! legend; the same numbers as CSV, and as JSON for the page's tooltips.
 
+mod bars;
 mod draw;
 mod export;
 mod layout;
@@ -11,6 +12,7 @@ mod svg;
 
 pub use svg::escape;
 
+use crate::stats::Interval;
 use palette::Color;
 
 /// Panels in rows and columns.
@@ -52,6 +54,8 @@ pub struct Look {
     pub dashed: bool,
     /// Heavier line.
     pub bold: bool,
+    /// Dots alone, without a line.
+    pub dots: bool,
 }
 
 /// What a panel shows.
@@ -63,6 +67,8 @@ pub enum Plot {
     Stack(Stack),
     /// Counts as colour.
     Heat(Heat),
+    /// Bars across, one below the other.
+    Bars(Vec<Bar>),
     /// An image.
     Picture(Picture),
 }
@@ -85,6 +91,19 @@ pub struct Stack {
     pub parts: Vec<Series>,
     /// Upper end of the y axis at least, so that panels compare.
     pub top: f64,
+}
+
+/// A bar of parts end to end, from 0 to the right; a lone part below 0 goes to the left.
+#[derive(Debug, Clone)]
+pub struct Bar {
+    /// What it is of.
+    pub label: String,
+    /// The number behind the label.
+    pub told: String,
+    /// What the parts are and how much, from 0.
+    pub parts: Vec<(Key, f64)>,
+    /// From where to where the whole lies.
+    pub interval: Option<Interval>,
 }
 
 /// Counts over x and ordered rows.
@@ -120,7 +139,7 @@ pub struct Picture {
 impl Look {
     /// A plain line.
     pub const fn plain(color: Color) -> Self {
-        Self { color, dashed: false, bold: false }
+        Self { color, dashed: false, bold: false, dots: false }
     }
 }
 

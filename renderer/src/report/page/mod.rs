@@ -69,21 +69,38 @@ pub struct Content<'a> {
     pub figures: &'a [Figure],
     /// Further pictures.
     pub galleries: &'a [Figure],
+    /// Times by method, lights and scene.
+    pub analysis: Option<&'a Analysis>,
     /// The papers' claims.
     pub claims: &'a [Claim],
     /// Tables over several ways of assignment.
     pub tables: &'a [Table],
 }
 
+/// A section of tables and drawings.
+#[derive(Debug, Clone, Default)]
+pub struct Analysis {
+    /// Drawings, or notes of what is missing.
+    pub figures: Vec<Figure>,
+    /// Numbers.
+    pub tables: Vec<Table>,
+}
+
 /// The whole page.
 pub fn html(set: &ResultSet, content: &Content<'_>) -> String {
-    let Content { figures, galleries, claims, tables } = *content;
+    let Content { figures, analysis, galleries, claims, tables } = *content;
     let mut body = String::new();
     header(&mut body, set);
     navigation(&mut body, content);
     claims_section(&mut body, claims);
     if !tables.is_empty() {
         tables::section(&mut body, tables);
+    }
+    if let Some(Analysis { figures, tables }) = analysis {
+        section(&mut body, "analysis", "Analysis: assignment and shading");
+        figures.iter().for_each(|figure| figure_element(&mut body, figure, false));
+        tables.iter().for_each(|table| tables::element(&mut body, table));
+        body.push_str("</section>\n");
     }
     for Section { heading, anchor, ids } in sections() {
         section(&mut body, anchor, heading);
@@ -99,7 +116,8 @@ pub fn html(set: &ResultSet, content: &Content<'_>) -> String {
     runs::section(&mut body, set);
     machine::section(&mut body, set);
     method_section(&mut body, set);
-    document(&body, &numbers(figures))
+    let analysed = analysis.map_or(&[][..], |analysis| &analysis.figures);
+    document(&body, &numbers(figures.iter().chain(analysed)))
 }
 
 /// The sections of all papers.
@@ -124,9 +142,8 @@ pub(crate) fn document(body: &str, data: &str) -> String {
 }
 
 /// Numbers of all drawn figures for the tooltips, by figure; safe within a script element.
-fn numbers(figures: &[Figure]) -> String {
-    let drawn =
-        figures.iter().filter_map(|figure| Some((figure.id.clone(), figure.chart.as_ref()?.hover_data())));
+fn numbers<'a>(figures: impl Iterator<Item = &'a Figure>) -> String {
+    let drawn = figures.filter_map(|figure| Some((figure.id.clone(), figure.chart.as_ref()?.hover_data())));
     Value::Object(drawn.collect::<Map<_, _>>()).to_string().replace('<', "\\u003c")
 }
 
@@ -201,6 +218,9 @@ fn navigation(body: &mut String, content: &Content<'_>) {
     body.push_str("<nav>\n<a href=\"#claims\">Claims</a>\n");
     if !content.tables.is_empty() {
         body.push_str("<a href=\"#ways\">Ways of assignment</a>\n");
+    }
+    if content.analysis.is_some() {
+        body.push_str("<a href=\"#analysis\">Analysis</a>\n");
     }
     for Section { heading, anchor, .. } in sections() {
         let short = heading.split(':').next().unwrap_or(heading);

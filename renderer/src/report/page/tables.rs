@@ -1,4 +1,4 @@
-//! Tables over several ways of assignment.
+//! Tables of numbers, and the section of those over several ways of assignment.
 
 use super::text;
 use crate::report::format::{readable, significant};
@@ -12,7 +12,8 @@ pub fn section(body: &mut String, tables: &[Table]) {
     body.push_str("</section>\n");
 }
 
-fn element(body: &mut String, table: &Table) {
+/// A table.
+pub fn element(body: &mut String, table: &Table) {
     // Writing to a string cannot fail, here and below.
     let _ = writeln!(body, "<figure id=\"table-{}\">\n<h3>{}</h3>", table.id, text(table.title));
     body.push_str("<div class=\"scroll\"><table class=\"ways\">\n<thead><tr>");

@@ -66,7 +66,7 @@ pub fn sweep(set: &ResultSet, setting: &Setting, sweep: Sweep) -> Option<Chart> 
     methods.dedup();
     let count = methods.len();
     let lines = methods.into_iter().enumerate().map(|(index, (_, method))| {
-        let look = Look { color: palette::ordered(index, count), dashed: false, bold: is_tuned(method) };
+        let look = Look { bold: is_tuned(method), ..Look::plain(palette::ordered(index, count)) };
         (method, method_name(method, false), look)
     });
     (count > 1).then(|| over_time(set, setting, &lines.collect::<Vec<_>>()))?
