@@ -188,7 +188,7 @@ fn cells_and_lists_of_a_world_grid_are_their_twins() {
     let config = Config {
         methods: methods(&["g-20"]),
         frames: FrameRange { first: 300, end: Some(301), step: 1 },
-        clusters: vec![Clusters::Visible],
+        clusters: vec![Clusters::Visible.into()],
         ..config("street", "bistro")
     };
     let run = &run(config.clone())[0];

@@ -139,6 +139,14 @@ mod tests {
     /// Flags of replay that are no fields: they say which runs are made and what comes after them, not what a run is.
     const ABOUT_RUNS: [&str; 7] = ["config", "report", "shard", "only", "force", "list-runs", "summarize"];
 
+    /// Fields of several values whose flag is given for each.
+    const ONE_EACH: [(&str, &str); 2] = [("methods", "method"), ("light_volumes", "light-volume")];
+
+    fn flag_of(field: &str) -> String {
+        let one = ONE_EACH.iter().find(|(several, _)| *several == field);
+        one.map_or_else(|| field.replace('_', "-"), |(_, flag)| (*flag).to_owned())
+    }
+
     #[test]
     fn every_field_is_a_flag_of_replay_and_every_flag_a_field_or_about_runs() {
         let mut cli = Cli::command();
@@ -147,10 +155,8 @@ mod tests {
             replay.get_arguments().filter_map(|arg| arg.get_long()).map(str::to_owned).collect();
         let schema = crate::config::json_schema();
         let fields = schema["properties"].as_object().unwrap().keys().filter(|field| *field != "$schema");
-        let mut known: Vec<String> = fields
-            .map(|field| if field == "methods" { "method".into() } else { field.replace('_', "-") })
-            .chain(ABOUT_RUNS.map(str::to_owned))
-            .collect();
+        let mut known: Vec<String> =
+            fields.map(|field| flag_of(field)).chain(ABOUT_RUNS.map(str::to_owned)).collect();
         flags.sort_unstable();
         known.sort_unstable();
         assert_eq!(flags, known);

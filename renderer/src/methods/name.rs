@@ -45,7 +45,9 @@ fn size(text: &str) -> Option<f64> {
 
 /// The valid name nearest to `name`, with its sizes where they fit.
 fn nearest(name: &str) -> String {
-    let (words, sizes): (Vec<&str>, Vec<&str>) = name.split('-').partition(|part| size(part).is_none());
+    let parts = || name.split('-');
+    let words: Vec<&str> = parts().filter(|part| part.starts_with(char::is_alphabetic)).collect();
+    let sizes: Vec<&str> = parts().filter(|part| size(part).is_some()).collect();
     let word = words.join("-").to_ascii_lowercase();
     let distance = |kind: &&Kind| strsim::damerau_levenshtein(kind.name, &word);
     let kind = KINDS.iter().min_by_key(distance).unwrap_or(&KINDS[0]);
