@@ -2,6 +2,8 @@
 // (TEST_BOUNDED 0).
 #pragma once
 
+#include "lib/measured_bounds.glsl"
+
 struct CellBounds {
     vec3 centre, half_extent;
     vec3 axes[3]; // unit, perpendicular
