@@ -89,7 +89,7 @@ pub const MEASUREMENT_WORDS: u64 = 4096;
 /// How many 64-bit counters the atemporal run has: as many as [`DeviceCounts`] has fields.
 pub const COUNTER_COUNT: usize = DeviceCounts::NAMES.len();
 
-const CONSTANTS: [(&str, u32); 30] = [
+const CONSTANTS: [(&str, u32); 31] = [
     ("SET_BUFFERS", SET_BUFFERS),
     ("SET_MATERIAL", SET_MATERIAL),
     ("SET_DEPTH", SET_DEPTH),
@@ -117,6 +117,7 @@ const CONSTANTS: [(&str, u32); 30] = [
     ("DISPATCH_SORT_SCAN", DISPATCH_SORT_SCAN),
     ("DISPATCH_NODES", DISPATCH_NODES),
     ("TREE_WIDTH", TREE_WIDTH),
+    ("MAX_TREE_DEPTH", MAX_TREE_DEPTH),
     ("SORT_BITS", SORT_BITS),
     ("SORT_DIGITS", SORT_DIGITS),
     ("SORT_BLOCK", SORT_BLOCK),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lib/publish_visible.glsl"
+#extension GL_EXT_control_flow_attributes : require
 
 void publish_candidates(uint total)
 {
@@ -11,9 +12,12 @@ void publish_candidates(uint total)
     dispatches[DISPATCH_SORT] = groups_for(blocks, ASSIGN_WORKGROUP);
     dispatches[DISPATCH_SORT_SCAN] = groups_for(blocks * SORT_DIGITS, SCAN_BLOCK);
     uint nodes = total;
-    for (uint depth = grid.tree_depth - 1u; depth > 0u; --depth) {
-        nodes = (nodes + TREE_WIDTH - 1u) / TREE_WIDTH;
-        dispatches[DISPATCH_NODES + depth - 1u] = groups_for(nodes, ASSIGN_WORKGROUP);
+    // Unrolled: llvmpipe takes a loop that a single thread enters to its 65 535 turns for the others.
+    [[unroll]] for (uint depth = MAX_TREE_DEPTH - 1u; depth > 0u; --depth) {
+        if (depth < grid.tree_depth) {
+            nodes = (nodes + TREE_WIDTH - 1u) / TREE_WIDTH;
+            dispatches[DISPATCH_NODES + depth - 1u] = groups_for(nodes, ASSIGN_WORKGROUP);
+        }
     }
 #else
     DispatchSize to_groups = groups_for(total, ASSIGN_WORKGROUP);
