@@ -12,7 +12,7 @@ void publish_candidates(uint total)
     dispatches[DISPATCH_SORT] = groups_for(blocks, ASSIGN_WORKGROUP);
     dispatches[DISPATCH_SORT_SCAN] = groups_for(blocks * SORT_DIGITS, SCAN_BLOCK);
     uint nodes = total;
-    // Unrolled: llvmpipe takes a loop that a single thread enters to its 65 535 turns for the others.
+    // Unrolled: as a loop, which a single thread enters, this took llvmpipe 1.3 ms.
     [[unroll]] for (uint depth = MAX_TREE_DEPTH - 1u; depth > 0u; --depth) {
         if (depth < grid.tree_depth) {
             nodes = (nodes + TREE_WIDTH - 1u) / TREE_WIDTH;

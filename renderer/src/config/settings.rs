@@ -203,8 +203,8 @@ settings! {
         told("marking from")
     }
     /// Which clusters get light lists: `visible` (those that hold a fragment, which marking finds), `all` of the grid, with
-    /// nothing marked, or `auto`: what the method's name says, visible ones for most; of methods g and m it is always all. Of several, with commas between, each is a
-    /// run of every method.
+    /// nothing marked, or `auto`: what the method's name says, visible ones for most; of methods g and m it is always all.
+    /// Of several, with commas between, each is a run of every method.
     clusters: Vec<Choice<Clusters>> = vec![Choice::Auto], Run {
         arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::choice::<Clusters>)
         serde(default, deserialize_with = "de::ways")
