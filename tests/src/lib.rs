@@ -7,12 +7,14 @@ pub use manylight::selftest::{METHODS, difference};
 
 use flate2::read::GzDecoder;
 use image::RgbImage;
+use manylight::assign::Marking;
 use manylight::config::Config;
 use manylight::inputs::Inputs;
 use manylight::measure::{ClusterLists, FrameCounts, FrameTimes, ViewPixels};
 use manylight::methods::Method;
 use manylight::output::{PlannedRun, planned_runs};
 use manylight::replay::{RunResult, RunSink, Watch, replay};
+use manylight::selftest::{count_fault, picture_fault};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -161,4 +163,26 @@ pub fn run_inputs(mut config: Config, inputs: &Inputs) -> Vec<Run> {
     replay(&config, inputs, &planned_runs(&config), &watch, &mut collect)
         .unwrap_or_else(|error| panic!("{error}"));
     collect.runs
+}
+
+/// Checks that every run has the pictures and the counts of the first, which is over all lights.
+///
+/// # Panics
+/// Where one has not, or there is nothing to check.
+pub fn assert_equal_the_truth(runs: &[Run], marking: Marking) {
+    let (truth, others) = runs.split_first().expect("a run over all lights");
+    assert!(!others.is_empty() && !truth.images.is_empty(), "nothing to compare");
+    for run in others {
+        let name = &run.planned.name;
+        assert_eq!((run.images.len(), run.counts.len()), (truth.images.len(), truth.counts.len()), "{name}");
+        for ((frame, views), (_, truths)) in run.images.iter().zip(&truth.images) {
+            assert_eq!(views.len(), truths.len(), "{name} frame {frame}");
+            for (view, truth) in views.iter().zip(truths) {
+                assert_eq!(picture_fault(view, truth), None, "{name} frame {frame}");
+            }
+        }
+        for (counts, truth) in run.counts.iter().zip(&truth.counts) {
+            assert_eq!(count_fault(counts, truth, marking), None, "{name} frame {}", counts.frame);
+        }
+    }
 }

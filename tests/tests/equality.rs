@@ -5,8 +5,7 @@ use manylight::assign::{Clusters, Marking};
 use manylight::config::{Assign, Config, ExrFrames, FrameRange};
 use manylight::lights::Lighting;
 use manylight::measure::ClusteringCounts;
-use manylight::selftest::{count_fault, picture_fault};
-use manylight_tests::{METHODS, Run, methods, run};
+use manylight_tests::{METHODS, Run, assert_equal_the_truth, methods, run};
 
 fn config(recording: &str, msaa: u32, marking: Marking) -> Config {
     Config {
@@ -29,24 +28,7 @@ fn check(recording: &str, msaa: u32, marking: Marking) {
 
 fn check_runs(config: Config) {
     let marking = config.marking;
-    let runs = run(config);
-    let truth = &runs[0];
-    for run in &runs[1..] {
-        let name = &run.planned.name;
-        for ((frame, views), (_, truth_views)) in run.images.iter().zip(&truth.images) {
-            for (view, truth_view) in views.iter().zip(truth_views) {
-                assert_eq!(picture_fault(view, truth_view), None, "{name} frame {frame}");
-            }
-        }
-        check_counts(run, truth, marking);
-    }
-}
-
-fn check_counts(run: &Run, truth: &Run, marking: Marking) {
-    assert_eq!(run.counts.len(), truth.counts.len());
-    for (counts, truth) in run.counts.iter().zip(&truth.counts) {
-        assert_eq!(count_fault(counts, truth, marking), None, "{} frame {}", run.planned.name, counts.frame);
-    }
+    assert_equal_the_truth(&run(config), marking);
 }
 
 #[test]
@@ -84,7 +66,15 @@ fn stereo_with_four_samples() {
 fn stereo_in_the_hall() {
     check_runs(Config {
         scene: "hall".to_owned(),
-        methods: methods(&["all-lights", "indi-persp-64", "encl-ortho-4", "encl-displ-64-32"]),
+        methods: methods(&[
+            "all-lights",
+            "indi-persp-64",
+            "encl-ortho-4",
+            "encl-displ-64-32",
+            "sc-e-48-40",
+            "g-20",
+            "m",
+        ]),
         lights: vec![Lighting { count: 400, intensity: 2.0, cutoff: 0.5, r0: 0.1 }],
         frames: FrameRange { first: 300, end: Some(831), step: 530 },
         clusters: vec![Clusters::Visible.into()],

@@ -6,8 +6,7 @@ use manylight::config::{Assign, Choice, Config, ExrFrames, FrameRange};
 use manylight::geometry::SliceLaw;
 use manylight::lights::Lighting;
 use manylight::measure::{ClusterLists, ClusteringCounts};
-use manylight::selftest::{count_fault, picture_fault};
-use manylight_tests::{Run, methods, run};
+use manylight_tests::{Run, assert_equal_the_truth, methods, run};
 use std::collections::BTreeSet;
 
 /// Tiles and clusters by name, as small as the pictures ask for.
@@ -31,18 +30,7 @@ fn config(recording: &str, msaa: u32, marking: Marking, names: &[&str]) -> Confi
 fn alike(config: Config) -> Vec<Run> {
     let marking = config.marking;
     let runs = run(config);
-    let truth = &runs[0];
-    for run in &runs[1..] {
-        let name = &run.planned.name;
-        for ((frame, views), (_, truth_views)) in run.images.iter().zip(&truth.images) {
-            for (view, truth_view) in views.iter().zip(truth_views) {
-                assert_eq!(picture_fault(view, truth_view), None, "{name} frame {frame}");
-            }
-        }
-        for (counts, truth) in run.counts.iter().zip(&truth.counts) {
-            assert_eq!(count_fault(counts, truth, marking), None, "{name} frame {}", counts.frame);
-        }
-    }
+    assert_equal_the_truth(&runs, marking);
     runs
 }
 

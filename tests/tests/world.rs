@@ -14,10 +14,9 @@ use manylight::measure::{ClusterLists, ViewPixels};
 use manylight::methods::grid::twin;
 use manylight::methods::{GridBox, Scenery};
 use manylight::output::planned_runs;
-use manylight::selftest::{count_fault, picture_fault};
 use manylight::still::{self, Item, Show, Viewpoint};
 use manylight_tests::scenes::write_lights;
-use manylight_tests::{Run, methods, run};
+use manylight_tests::{Run, assert_equal_the_truth, methods, run};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -38,18 +37,10 @@ fn config(scene: &str, recording: &str) -> Config {
 
 /// Checks pictures and counts of every run against those of the first, over all lights.
 fn equal_the_truth(runs: &[Run], marking: Marking) {
-    let truth = &runs[0];
+    assert_equal_the_truth(runs, marking);
     for run in &runs[1..] {
-        let name = &run.planned.name;
-        for ((frame, views), (_, truths)) in run.images.iter().zip(&truth.images) {
-            for (view, truth) in views.iter().zip(truths) {
-                assert_eq!(picture_fault(view, truth), None, "{name} frame {frame}");
-            }
-        }
-        for (counts, truth) in run.counts.iter().zip(&truth.counts) {
-            assert_eq!(count_fault(counts, truth, marking), None, "{name} frame {}", counts.frame);
-            assert!(counts.clusterings.len() == 1, "{name}: one clustering serves all views");
-        }
+        let one_each = run.counts.iter().all(|counts| counts.clusterings.len() == 1);
+        assert!(one_each, "{}: one clustering serves all views", run.planned.name);
     }
 }
 
