@@ -11,6 +11,7 @@
 //! nor GPU, [`output`] knows no passes. Start reading at [`frame`].
 
 pub mod assign;
+pub mod audience;
 pub mod buffers;
 pub mod cli;
 pub mod clustering;

@@ -1,7 +1,7 @@
 //! Tuning as its users meet it: the table, and the configuration that replays what was found.
 
 use manylight_tests::manylight;
-use manylight_tests::program::{printed, refused};
+use manylight_tests::program::{printed, refused, stderr, succeed, text};
 use serde_json::Value;
 use std::fs;
 use std::process::Command;
@@ -11,7 +11,7 @@ fn small() -> Command {
     let mut command = manylight();
     command.args(["tune", "--resolution", "48x32", "--frames", "300..381/80", "--recording", "bistro"]);
     command.args(["--lights", "40", "--lights", "90", "--method", "encl-ortho-2", "--method", "all-lights"]);
-    command.args(["--max-runs", "5", "--test", "auto", "--assign", "brute,scatter", "--quiet"]);
+    command.args(["--max-runs", "5", "--test", "auto", "--assign", "brute,scatter"]);
     command
 }
 
@@ -64,7 +64,11 @@ fn what_is_found_is_told_and_can_be_replayed() {
 fn people_get_a_table() {
     let out = tempfile::tempdir().unwrap();
     let file = out.path().join("tuned.json");
-    let table = printed(small().args(["--frames", "300", "--runs", "2", "--write"]).arg(&file));
+    let output = succeed(small().args(["--frames", "300", "--runs", "2", "--write"]).arg(&file));
+    let (table, notes) = (text(&output.stdout), stderr(&output));
+    for found in ["encl-ortho-2 40: encl-ortho-", "all-lights 90: all-lights of 1 wins"] {
+        assert!(notes.contains(found), "each is told as it is found: {notes}");
+    }
     let heading = table.lines().nth(1).unwrap();
     assert!(
         ["lights", "method", "tuned", "assign", "test", "ratio"].iter().all(|name| heading.contains(name))
@@ -83,9 +87,9 @@ fn what_cannot_be_tuned_is_refused_and_nothing_is_written() {
         (["--test", "nearest"], "test"),
         (["--scene", "nowhere.gltf"], "nowhere.gltf"),
     ] {
-        let message = refused(small().args(flags).arg("--write").arg(&file));
+        let message = refused(small().args(flags).args(["--quiet", "--write"]).arg(&file));
         assert!(message.contains(word), "{flags:?}: {message}");
         assert!(!file.exists());
     }
-    assert!(refused(&mut small()).contains("--write"));
+    assert!(refused(small().arg("--quiet")).contains("--write"));
 }

@@ -2,6 +2,7 @@
 //! error. A result that cannot be printed is an error; what standard error does not take is lost, for nobody is
 //! left to be told.
 
+use crate::audience::Audience;
 use crate::output::cause;
 use crate::{Error, Result};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -133,6 +134,41 @@ impl Progress {
 impl Drop for Progress {
     fn drop(&mut self) {
         self.0.finish_and_clear();
+    }
+}
+
+/// The bar over the frames that are known to come, with notes above it.
+pub struct FrameBar<'a> {
+    progress: Progress,
+    console: &'a Console,
+}
+
+impl<'a> FrameBar<'a> {
+    /// No frame is known to come yet.
+    pub fn new(console: &'a Console) -> Self {
+        Self { progress: console.progress(0), console }
+    }
+}
+
+impl Audience for FrameBar<'_> {
+    fn say(&self, what: &str) {
+        self.progress.say(what);
+    }
+
+    fn more(&self, frames: u64) {
+        self.progress.lengthen(frames);
+    }
+
+    fn advance(&self) {
+        self.progress.advance();
+    }
+
+    fn skip(&self, frames: u64) {
+        self.progress.skip(frames);
+    }
+
+    fn note(&self, text: &str) {
+        self.console.note(text);
     }
 }
 

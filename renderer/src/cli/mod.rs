@@ -17,7 +17,7 @@ mod still;
 mod tune;
 mod usage;
 
-pub use console::{Console, Progress};
+pub use console::{Console, FrameBar, Progress};
 pub use interrupt::Interrupt;
 
 use crate::Result;

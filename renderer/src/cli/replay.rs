@@ -1,10 +1,11 @@
 //! `manylight replay`.
 
-use super::{Console, Interrupt, Progress};
+use super::{Console, FrameBar, Interrupt};
+use crate::audience::Audience;
 use crate::config::{Config, Layer};
 use crate::output::{Summary, write_summary};
 use crate::report::write_report;
-use crate::sweep::{Doubtful, Failure, Outcome, Part, Reporter, Selection, Sweep, parts, summary};
+use crate::sweep::{Doubtful, Outcome, Part, Selection, Sweep, parts, summary};
 use crate::{Error, Result};
 use serde::Serialize;
 use std::fmt;
@@ -80,9 +81,9 @@ pub fn run(args: Args, console: &Console) -> Result<()> {
 /// Runs the sweep; an error that comes before anything was done is the outer one.
 fn sweep(chosen: &[Part], force: bool, console: &Console) -> Result<(Outcome, Result<()>)> {
     let interrupt = Interrupt::install()?;
-    let bar = Bar { progress: console.progress(0), console };
+    let bar = FrameBar::new(console);
     let mut sweep = Sweep::new(chosen, force, interrupt.flag(), &bar)?;
-    bar.progress.set_length(sweep.frames()?);
+    bar.more(sweep.frames()?);
     let ended = sweep.run();
     Ok((std::mem::take(&mut sweep.outcome), ended))
 }
@@ -131,34 +132,6 @@ fn failures(outcome: &Outcome, all: usize) -> Result<()> {
         first.run,
         first.error
     )))
-}
-
-/// The bar over all frames of the sweep.
-struct Bar<'a> {
-    progress: Progress,
-    console: &'a Console,
-}
-
-impl Reporter for Bar<'_> {
-    fn say(&self, what: &str) {
-        self.progress.say(what);
-    }
-
-    fn advance(&self) {
-        self.progress.advance();
-    }
-
-    fn skip(&self, frames: u64) {
-        self.progress.skip(frames);
-    }
-
-    fn note(&self, text: &str) {
-        self.console.note(text);
-    }
-
-    fn failed(&self, failure: &Failure) {
-        self.console.note(&format!("{} failed: {}", failure.run, failure.error));
-    }
 }
 
 /// Full names of runs.

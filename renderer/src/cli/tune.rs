@@ -1,9 +1,9 @@
 //! `manylight tune`.
 
-use super::{Console, Interrupt, Progress};
+use super::{Console, FrameBar, Interrupt};
 use crate::config::Layer;
 use crate::output::{prepare_file, write_whole};
-use crate::tune::{Audience, defaults, tune};
+use crate::tune::{defaults, tune};
 use crate::{Error, Result};
 use std::io::Write;
 use std::path::PathBuf;
@@ -31,7 +31,7 @@ pub fn run(args: Args, console: &Console) -> Result<()> {
     let config = defaults().under(args.config.as_deref(), args.layer)?;
     prepare_file(&args.write)?;
     let interrupt = Interrupt::install()?;
-    let bar = Bar { progress: console.progress(0), console };
+    let bar = FrameBar::new(console);
     let (tuning, tuned) = tune(&config, interrupt.flag(), &bar).map_err(of_nothing)?;
     drop(bar);
     let text = serde_json::to_string_pretty(&tuned)
@@ -47,33 +47,5 @@ fn of_nothing(error: Error) -> Error {
     match error {
         Error::Interrupted(_) => Error::Interrupted("interrupted: nothing was written".into()),
         other => other,
-    }
-}
-
-/// The bar over the frames that are known to come.
-struct Bar<'a> {
-    progress: Progress,
-    console: &'a Console,
-}
-
-impl Audience for Bar<'_> {
-    fn say(&self, what: &str) {
-        self.progress.say(what);
-    }
-
-    fn more(&self, frames: u64) {
-        self.progress.lengthen(frames);
-    }
-
-    fn advance(&self) {
-        self.progress.advance();
-    }
-
-    fn skip(&self, frames: u64) {
-        self.progress.skip(frames);
-    }
-
-    fn note(&self, text: &str) {
-        self.console.note(text);
     }
 }

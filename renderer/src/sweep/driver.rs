@@ -3,6 +3,7 @@
 use super::group::{self, Member, Tally};
 use super::writer::{Files, device};
 use super::{Failure, Fingerprint, Part, failure};
+use crate::audience::Audience;
 use crate::config::Config;
 use crate::engine::{plan_frames, shader_library};
 use crate::inputs::Inputs;
@@ -15,20 +16,6 @@ use crate::scene::{Scene, procedural};
 use crate::{Error, Result};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
-
-/// The user's side of a sweep.
-pub trait Reporter {
-    /// This is under way.
-    fn say(&self, what: &str);
-    /// A frame was submitted.
-    fn advance(&self);
-    /// So many frames need not be rendered.
-    fn skip(&self, frames: u64);
-    /// Good to know.
-    fn note(&self, text: &str);
-    /// A run failed, and the sweep goes on.
-    fn failed(&self, failure: &Failure);
-}
 
 /// What has become of the runs.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -47,7 +34,7 @@ pub struct Sweep<'a> {
     recordings: Vec<Recording>,
     force: bool,
     interrupt: &'a AtomicBool,
-    reporter: &'a dyn Reporter,
+    audience: &'a dyn Audience,
     /// So far.
     pub outcome: Outcome,
     /// Whether a part was opened: before that, bad input ends the sweep.
@@ -124,7 +111,7 @@ impl<'a> Sweep<'a> {
         parts: &'a [Part],
         force: bool,
         interrupt: &'a AtomicBool,
-        reporter: &'a dyn Reporter,
+        audience: &'a dyn Audience,
     ) -> Result<Self> {
         let recordings = parts.iter().map(check_part).collect::<Result<_>>()?;
         Ok(Self {
@@ -132,7 +119,7 @@ impl<'a> Sweep<'a> {
             recordings,
             force,
             interrupt,
-            reporter,
+            audience,
             outcome: Outcome::default(),
             under_way: false,
         })
@@ -190,7 +177,7 @@ impl<'a> Sweep<'a> {
             if !self.force && self.is_there(&open.part.path(run), &wanted) {
                 failure::forget(open.part, run)?;
                 self.outcome.skipped += 1;
-                self.reporter.skip(open.frames);
+                self.audience.skip(open.frames);
             } else {
                 pending.push((run, wanted));
             }
@@ -199,7 +186,7 @@ impl<'a> Sweep<'a> {
             return Ok(());
         }
         for note in open.notes()? {
-            self.reporter.note(&note);
+            self.audience.note(&note);
         }
         let (player, pending) = self.checked(open, pending)?;
         self.make(Stage { open, player, group: vec![] }, pending)
@@ -234,7 +221,7 @@ impl<'a> Sweep<'a> {
         match check_run(directory) {
             Ok(()) => saved_fingerprint(directory).is_some_and(|saved| saved == fingerprint),
             Err(error) => {
-                self.reporter.note(&format!("{error}; the run is made again"));
+                self.audience.note(&format!("{error}; the run is made again"));
                 false
             }
         }
@@ -269,9 +256,9 @@ impl<'a> Sweep<'a> {
         'a: 'o,
     {
         let Open { part, inputs, frames } = *stage.open;
-        let (reporter, tally) = (self.reporter, Tally::new(frames));
-        let watch = Watch { interrupt: self.interrupt, progress: &|| tally.step(|| reporter.advance()) };
-        let mut files = Files::new((part, inputs), fingerprint, reporter);
+        let (audience, tally) = (self.audience, Tally::new(frames));
+        let watch = Watch { interrupt: self.interrupt, progress: &|| tally.step(|| audience.advance()) };
+        let mut files = Files::new((part, inputs), fingerprint, audience);
         match stage.player().and_then(|player| player.count(run, &watch, &mut files)) {
             Ok(counted) => {
                 tally.counted();
@@ -321,11 +308,11 @@ impl<'a> Sweep<'a> {
         for member in &finished {
             failure::forget(part, member.run)?;
             self.outcome.made += 1;
-            self.reporter.skip(member.tally.left());
+            self.audience.skip(member.tally.left());
         }
         let timed = finished.iter().filter_map(|member| Some((member.run, member.files.timing.as_ref()?)));
         for note in group::notes(part, &timed.collect::<Vec<_>>()) {
-            self.reporter.note(&note);
+            self.audience.note(&note);
         }
         Ok(())
     }
@@ -334,8 +321,8 @@ impl<'a> Sweep<'a> {
     fn fail(&mut self, part: &Part, run: &PlannedRun, frames: u64, error: &Error) -> Result<()> {
         let failure = Failure::new(part, run, error);
         failure.write(part, run)?;
-        self.reporter.skip(frames);
-        self.reporter.failed(&failure);
+        self.audience.skip(frames);
+        self.audience.note(&format!("{} failed: {}", failure.run, failure.error));
         self.outcome.failed.push(failure);
         Ok(())
     }

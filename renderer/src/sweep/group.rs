@@ -103,8 +103,8 @@ pub(super) fn time(player: &mut Player, group: &mut [Member], interrupt: &Atomic
     let steps: Vec<_> = group
         .iter()
         .map(|member| {
-            let (tally, reporter) = (member.tally.clone(), member.files.reporter);
-            move || tally.step(|| reporter.advance())
+            let (tally, audience) = (member.tally.clone(), member.files.audience);
+            move || tally.step(|| audience.advance())
         })
         .collect();
     let watches: Vec<Watch> = steps.iter().map(|progress| Watch { interrupt, progress }).collect();

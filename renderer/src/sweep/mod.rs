@@ -18,7 +18,7 @@ mod selection;
 mod table;
 mod writer;
 
-pub use driver::{Outcome, Reporter, Sweep};
+pub use driver::{Outcome, Sweep};
 pub use failure::Failure;
 pub use fingerprint::Fingerprint;
 pub(crate) use group::{MOST, most_bytes};

@@ -1,6 +1,7 @@
 //! Writes the runs of one part as they come.
 
-use super::{Part, Reporter};
+use super::Part;
+use crate::audience::Audience;
 use crate::config::Assign;
 use crate::inputs::Inputs;
 use crate::machine::{Host, Machine, Roots, doubts};
@@ -16,7 +17,7 @@ use image::RgbImage;
 pub(super) struct Files<'a> {
     pub part: &'a Part,
     pub inputs: &'a Inputs,
-    pub reporter: &'a dyn Reporter,
+    pub audience: &'a dyn Audience,
     pub fingerprint: String,
     pub writer: Option<RunWriter>,
     pub broken: bool,
@@ -40,10 +41,10 @@ impl<'a> Files<'a> {
     pub fn new(
         (part, inputs): (&'a Part, &'a Inputs),
         fingerprint: String,
-        reporter: &'a dyn Reporter,
+        audience: &'a dyn Audience,
     ) -> Self {
         let (broken, finished) = (false, false);
-        Self { part, inputs, reporter, fingerprint, writer: None, broken, finished, timing: None }
+        Self { part, inputs, audience, fingerprint, writer: None, broken, finished, timing: None }
     }
 }
 
@@ -91,7 +92,7 @@ impl Files<'_> {
 
 impl RunSink for Files<'_> {
     fn begin(&mut self, run: &PlannedRun) -> Result<()> {
-        self.reporter.say(&self.part.full_name(run));
+        self.audience.say(&self.part.full_name(run));
         let writer = RunWriter::create(&self.part.config.out, &run.name);
         self.writer = Some(self.noted(writer)?);
         Ok(())
@@ -119,7 +120,7 @@ impl RunSink for Files<'_> {
     }
 
     fn turn(&mut self, run: &PlannedRun) -> Result<()> {
-        self.reporter.say(&self.part.full_name(run));
+        self.audience.say(&self.part.full_name(run));
         Ok(())
     }
 
@@ -130,7 +131,7 @@ impl RunSink for Files<'_> {
             self.noted(writer.write_trace(&result.traces))?;
         }
         if run.assign == Assign::Auto {
-            self.reporter.note(&format!("{}: lights assigned by {}", run.name, result.assigner));
+            self.audience.note(&format!("{}: lights assigned by {}", run.name, result.assigner));
         }
         let finished = writer.finish(&manifest, &result.counts, &result.times);
         self.noted(finished)?;

@@ -18,6 +18,7 @@ mod written;
 
 pub use table::{Row, Tuning};
 
+use crate::audience::Audience;
 use crate::config::{Assign, Config, Runs, Test};
 use crate::geometry::SphereTest;
 use crate::inputs::Inputs;
@@ -28,20 +29,6 @@ use crate::{Error, Result, recording};
 use search::{Found, Problem};
 use std::sync::atomic::AtomicBool;
 use timer::{Effort, Timer};
-
-/// The user's side of a search.
-pub trait Audience {
-    /// This is under way.
-    fn say(&self, what: &str);
-    /// So many more frames will be rendered at most.
-    fn more(&self, frames: u64);
-    /// One of them was.
-    fn advance(&self);
-    /// So many of them need not be.
-    fn skip(&self, frames: u64);
-    /// Good to know.
-    fn note(&self, text: &str);
-}
 
 /// The defaults of a search: those of a replay, but with every way of assignment, tests of three costs, and as many
 /// temporal runs as it takes, up to fewer than a replay makes: a search times dozens of candidates.
@@ -115,7 +102,9 @@ fn tune_part(
         for run in methods(runs) {
             audience.say(&format!("{} {}", run.method, run.lights));
             let problem = Problem { config: &scene, of: &run.config, frames: &frames };
-            found.push(problem.solve(&mut timer)?);
+            let of_run = problem.solve(&mut timer)?;
+            audience.note(&format!("{} {}: {of_run}", run.method, run.lights));
+            found.push(of_run);
         }
         audience.say(&format!("the winners, {}", runs[0].lights));
         let effort = Effort::whole(&scene, &frames);

@@ -7,6 +7,7 @@ use crate::Result;
 use crate::config::{Assign, Config, Test};
 use crate::output::{PlannedRun, planned_runs};
 use crate::stats::Samples;
+use std::fmt;
 
 /// What a search starts from.
 pub struct Problem<'c> {
@@ -53,6 +54,17 @@ impl Found {
         times.truncate(1);
         let settled = Self { best: self.named.clone(), runner_up: Some(self.best), undecided: true, ..self };
         (settled, times)
+    }
+}
+
+impl fmt::Display for Found {
+    /// The winner in a line, before it is timed beside the method as named.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} of {} wins", self.best.name, self.tried)?;
+        match &self.runner_up {
+            Some(next) if self.undecided => write!(f, ", undecided against {}", next.name),
+            _ => Ok(()),
+        }
     }
 }
 

@@ -33,6 +33,10 @@ pub struct Row {
     pub test: String,
     /// Which of its clusters get lists; empty where it has none.
     pub clusters: String,
+    /// What of its clusters is tested; empty where it has none.
+    pub bounds: String,
+    /// Where its slices begin; empty where it has none.
+    pub slices: String,
     /// Its time.
     pub total_ms: Option<f64>,
     /// Interval of that.
@@ -64,6 +68,27 @@ pub struct Tuning {
     pub rows: Vec<Row>,
 }
 
+/// A column behind the others, which is there where it tells something.
+struct Behind {
+    name: &'static str,
+    of: fn(&Row) -> &str,
+    /// What most methods have.
+    usual: &'static str,
+}
+
+/// What the winners do with their clusters.
+static BEHIND: [Behind; 3] = [
+    Behind { name: "clusters", of: |row| &row.clusters, usual: "visible" },
+    Behind { name: "bounds", of: |row| &row.bounds, usual: "implicit" },
+    Behind { name: "slices", of: |row| &row.slices, usual: "geometric" },
+];
+
+impl Behind {
+    fn tells(&self, row: &Row) -> bool {
+        ![self.usual, "auto", ""].contains(&(self.of)(row))
+    }
+}
+
 /// Value of a run on an axis.
 fn on(axis: &str, run: &PlannedRun) -> String {
     Axis::named(axis).map_or_else(String::new, |axis| axis.value(&run.config))
@@ -87,6 +112,8 @@ impl Row {
             assign: on("assign", &found.best),
             test: on("test", &found.best),
             clusters: on("clusters", &found.best),
+            bounds: on("bounds", &found.best),
+            slices: on("slices", &found.best),
             total_ms: best.as_ref().map(|best| best.value),
             interval: best.as_ref().and_then(Measured::interval),
             ratio: ratio.map(|(named, best)| best.value / named.value),
@@ -131,20 +158,21 @@ impl Row {
 
 impl fmt::Display for Tuning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (scenes, lists) = (
-            self.rows.iter().any(|row| !row.scene.is_empty()),
-            self.rows.iter().any(|row| row.clusters == "all"),
-        );
+        let scenes = self.rows.iter().any(|row| !row.scene.is_empty());
+        let told: Vec<_> =
+            BEHIND.iter().filter(|column| self.rows.iter().any(|row| column.tells(row))).collect();
         let mut table = Table::new();
         table.load_preset(TABLE_LINES).set_content_arrangement(ContentArrangement::Disabled);
-        let heading = ["lights", "method", "ms", "tuned", "assign", "test", "ms", "ratio", ""];
-        let wide = |cells: Vec<String>, scene: &str, clusters: &str| {
-            let scene = scenes.then(|| scene.to_owned());
-            let clusters = lists.then(|| clusters.to_owned());
-            scene.into_iter().chain(cells).chain(clusters).collect::<Vec<_>>()
-        };
-        table.set_header(wide(heading.map(str::to_owned).to_vec(), "scene", "clusters"));
-        table.add_rows(self.rows.iter().map(|row| wide(row.cells(), &row.scene, &row.clusters)));
+        let scene = |scene: &str| scenes.then(|| scene.to_owned()).into_iter();
+        let heading =
+            ["lights", "method", "ms", "tuned", "assign", "test", "ms", "ratio", ""].map(str::to_owned);
+        table.set_header(
+            scene("scene").chain(heading).chain(told.iter().map(|column| column.name.to_owned())),
+        );
+        table.add_rows(self.rows.iter().map(|row| {
+            let behind = told.iter().map(|column| (column.of)(row).to_owned());
+            scene(&row.scene).chain(row.cells()).chain(behind).collect::<Vec<_>>()
+        }));
         for place in [0, 2, 6, 7].map(|place| place + usize::from(scenes)) {
             if let Some(column) = table.column_mut(place) {
                 column.set_cell_alignment(CellAlignment::Right);

@@ -4,7 +4,7 @@
 //! runs ─> prepared (not counted) ─> groups, the named run in each ─> frame times in turn ─> samples
 //! ```
 
-use super::Audience;
+use crate::audience::Audience;
 use crate::config::{Config, ExrFrames, FrameRange, Runs, Scopes};
 use crate::inputs::Inputs;
 use crate::measure::{FrameTimes, ViewPixels};

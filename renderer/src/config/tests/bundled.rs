@@ -20,6 +20,13 @@ fn bundled_configurations_say_what_they_should() {
 }
 
 #[test]
+fn the_bundled_sweep_to_repeat_compares_with_indi_persp_64() {
+    let config = Config::resolve(Some(&repository("configs/repeat.json")), Layer::default()).unwrap();
+    let runs = &crate::sweep::parts(&config).unwrap()[0].runs;
+    assert_eq!((runs.len(), runs[0].name.as_str()), (2 * 19, "indi-persp-64_1000"));
+}
+
+#[test]
 fn the_bundled_sweep_of_tests_is_of_all_tuned_methods() {
     let config = Config::resolve(Some(&repository("configs/tests.json")), Layer::default()).unwrap();
     let parts = crate::sweep::parts(&config).unwrap();
