@@ -6,10 +6,13 @@
 //! scene ──(cull)──> draws         ├─ the method's groups ─> LightLists ─┐
 //!            └──────────depth──> Depth ─┘ (where it marks) ─────────────┴─shade──> Color ──resolve
 //! ```
+//!
+//! With overdraw shading lays down depth of its own: there is a prepass only where the method's groups come from it.
 
 use crate::methods::Method;
 use crate::pass::Recorder;
 use crate::passes::{Frame, cull, depth, lights, readback, resolve, shade};
+use crate::shading::Shading;
 
 /// Records the whole frame of a method.
 pub fn record(r: &mut Recorder, frame: &Frame, method: &Method) {
@@ -18,7 +21,10 @@ pub fn record(r: &mut Recorder, frame: &Frame, method: &Method) {
         cull::record(r, frame);
         let (depth, lists) = method.record(r, frame, lights);
         if frame.shaded {
-            let depth = depth::complete(r, frame, depth);
+            let depth = match frame.shading {
+                Shading::Prepass => Some(depth::complete(r, frame, depth)),
+                Shading::Overdraw => None,
+            };
             let color = shade::record(r, frame, depth, lists);
             resolve::record(r, frame, color);
         }

@@ -48,6 +48,7 @@ pub mod replay;
 pub mod report;
 pub mod scene;
 pub mod selftest;
+pub mod shading;
 pub mod stats;
 pub mod still;
 pub mod sweep;

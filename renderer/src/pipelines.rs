@@ -21,6 +21,7 @@ use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
 use crate::geometry::views::ViewSet;
 use crate::layouts::{Layouts, Pipeline, PipelineLayout};
+use crate::shading::Shading;
 use crate::texture_sets::TextureSet;
 use crate::vk::{self as gpu, Context, ShaderLibrary};
 use ash::vk;
@@ -77,6 +78,10 @@ pub struct Pipelines {
     pub depth_masked: Arc<Pipeline>,
     /// Forward shading, by [`SurfaceKind`] and by the textures of the material.
     pub shade: [BTreeMap<TextureSet, Arc<Pipeline>>; 3],
+    /// Counting masked surfaces with overdraw, by the textures of the material, where all is counted.
+    pub count_masked: Option<BTreeMap<TextureSet, Arc<Pipeline>>>,
+    /// Counting what of opaque and masked surfaces is seen in the end, with overdraw where all is counted.
+    pub seen: Option<[Arc<Pipeline>; 2]>,
     /// What is known of each pixel, for images.
     pub pixel_maps: Arc<Pipeline>,
     /// The model of each pixel, of opaque and of masked surfaces, where groups are models and all is counted.
@@ -181,11 +186,16 @@ impl PipelineStore {
             Culling::Cpu => None,
             Culling::Gpu => Some(self.compute("geometry/cull.comp", &Defines(vec![]))?),
         };
+        let overdraw_counted = variant.shading == Shading::Overdraw && variant.counting;
         let mut pipelines = Pipelines {
             cull,
             depth_opaque: self.graphics(variant, None, Output::Depth)?,
             depth_masked: self.graphics(variant, Some("geometry/alpha_test.frag"), Output::Depth)?,
             shade: self.shade(variant)?,
+            count_masked: overdraw_counted
+                .then(|| self.shade_kind(variant, SurfaceKind::Masked))
+                .transpose()?,
+            seen: overdraw_counted.then(|| self.seen(variant)).transpose()?,
             pixel_maps: self.compute("measure/pixel_maps.comp", &variant.defines())?,
             pixel_models: self.pixel_models(variant)?,
             clustered,
@@ -198,15 +208,25 @@ impl PipelineStore {
     }
 
     fn shade(&mut self, variant: &Variant) -> Result<[BTreeMap<TextureSet, Arc<Pipeline>>; 3]> {
-        let mut shade = [const { BTreeMap::new() }; 3];
-        for (kind, sets) in SurfaceKind::ALL.into_iter().zip(self.texture_sets.clone()) {
-            for set in sets {
-                let output = Output::Shades(kind, set);
-                let pipeline = self.graphics(variant, Some("shade/forward.frag"), output)?;
-                shade[kind as usize].insert(set, pipeline);
-            }
-        }
-        Ok(shade)
+        let [opaque, masked, transparent] = SurfaceKind::ALL;
+        let mut of = |kind| self.shade_kind(&variant.drawing(kind), kind);
+        Ok([of(opaque)?, of(masked)?, of(transparent)?])
+    }
+
+    /// Shading of a kind of surface, by the textures of its materials.
+    fn shade_kind(
+        &mut self,
+        variant: &Variant,
+        kind: SurfaceKind,
+    ) -> Result<BTreeMap<TextureSet, Arc<Pipeline>>> {
+        let sets = self.texture_sets[kind as usize].clone();
+        let mut of = |set| self.graphics(variant, Some("shade/forward.frag"), Output::Shades(kind, set));
+        sets.into_iter().map(|set| Ok((set, of(set)?))).collect()
+    }
+
+    fn seen(&mut self, variant: &Variant) -> Result<[Arc<Pipeline>; 2]> {
+        let mut of = |kind| self.graphics(variant, Some("measure/seen.frag"), Output::Sees(kind));
+        Ok([of(SurfaceKind::Opaque)?, of(SurfaceKind::Masked)?])
     }
 
     fn pixel_models(&mut self, variant: &Variant) -> Result<Option<[Arc<Pipeline>; 2]>> {

@@ -14,3 +14,13 @@ void count(uint counter, uint amount)
         atomicAdd(counters[2u * counter + 1u], 1u);
 #endif
 }
+
+// Takes back what was added before.
+void count_off(uint counter, uint amount)
+{
+#if COUNTERS
+    uint old = atomicAdd(counters[2u * counter], 0u - amount);
+    if (old < amount)
+        atomicAdd(counters[2u * counter + 1u], 0xFFFFFFFFu);
+#endif
+}

@@ -6,13 +6,8 @@
 #include "lib/fragment_position.glsl"
 #include "lib/material.glsl"
 #include "lib/surface.glsl"
+#include "lib/surface_inputs.glsl"
 
-#if TEXTURES != 0
-layout(location = 0) in vec4 uv;
-#else
-const vec4 uv = vec4(0.0);
-#endif
-layout(location = 1) in vec4 color;
 layout(location = 2) in vec3 normal;
 #if HAS_TEXTURE(NORMAL)
 layout(location = 3) in vec4 tangent;

@@ -124,7 +124,7 @@ fn equal_runs_are_joined_wherever_they_lie_and_whatever_their_output_was_called(
         metrics[metrics.len() - 3..],
         ["visible_clusters_dropped", "clusterings.csv", "histograms.csv"]
     );
-    assert!(same.to_string().contains("counters: all 14 equal in 2 frames"), "{same}");
+    assert!(same.to_string().contains("counters: all 15 equal in 2 frames"), "{same}");
 }
 
 #[test]

@@ -57,7 +57,7 @@ pub struct Axis {
 }
 
 /// Every axis: of the product the first varies slowest.
-pub static AXES: [Axis; 9] = [
+pub static AXES: [Axis; 10] = [
     Axis {
         name: "scene",
         description: "The scene as the configuration has it, or its file's name without extension; `*` stands for any \
@@ -185,6 +185,18 @@ pub static AXES: [Axis; 9] = [
         },
         called: |run| vec![names(&choices(run, &run.slices))],
         label: |run, _| names(&choices(run, &run.slices)),
+    },
+    Axis {
+        name: "shading",
+        description: "How surfaces are shaded, after a prepass or with overdraw; `*` stands for any text.",
+        column: "shading",
+        role: Role::Way,
+        values: Values::Names,
+        applies: |_| true,
+        count: |config| config.shading.len(),
+        split: |config| each(&config.shading, |shading| Config { shading: vec![shading], ..config.clone() }),
+        called: |run| vec![names(&run.shading)],
+        label: |run, _| names(&run.shading),
     },
 ];
 

@@ -5,6 +5,7 @@ use super::{Assign, Choice, Config, Layer};
 use crate::assign::{Bounds, Clusters};
 use crate::lights::Attenuation;
 use crate::methods::{KINDS, Kind};
+use crate::shading::Shading;
 use clap::ValueEnum;
 use schemars::{Schema, SchemaGenerator, json_schema};
 use serde_json::Value;
@@ -113,6 +114,10 @@ fn choices_of<T: Copy + std::fmt::Display>(values: &[T]) -> Schema {
 
 pub(super) fn assign(_: &mut SchemaGenerator) -> Schema {
     names_of(Assign::value_variants())
+}
+
+pub(super) fn shading(_: &mut SchemaGenerator) -> Schema {
+    names_of(Shading::value_variants())
 }
 
 fn names_of<T: ToString>(values: &[T]) -> Schema {

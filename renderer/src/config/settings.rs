@@ -12,6 +12,7 @@ use crate::geometry::{DisplacedVolume, SliceLaw, SphereTest};
 use crate::lights::{Attenuation, GeneratorKind, LatticeBox, LightBox, LightMotion, LightSet, Lighting};
 use crate::measure::Order;
 use crate::methods::{GridBox, KINDS, Method, Sharing, Space};
+use crate::shading::Shading;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -249,6 +250,16 @@ settings! {
         arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::choice::<SphereTest>)
         serde(default, deserialize_with = "de::ways")
         schemars(schema_with = "schema::test")
+        write(serialize_with = "ser::one_or_several")
+        check(values::check_ways)
+    }
+    /// How opaque and masked surfaces are shaded: after a `prepass`, so that those fragments alone are shaded that are seen, or
+    /// with `overdraw`, as they are drawn, whatever hides them later: there is no prepass but where clusters are marked or measured
+    /// from it. What is seen is the same. Of several, with commas between, each is a run of every method.
+    shading: Vec<Shading> = vec![Shading::Prepass], Run {
+        arg(long, value_enum, value_name = "LIST", value_delimiter = ',')
+        serde(default, deserialize_with = "de::ways")
+        schemars(schema_with = "schema::shading")
         write(serialize_with = "ser::one_or_several")
         check(values::check_ways)
     }

@@ -7,7 +7,7 @@ use crate::gpu_interface::{ClusteringState, PixelData};
 use crate::lights::FrameLights;
 use crate::measure::{ClusterLists, FrameCounts, ViewPixels};
 use crate::pass::Recorder;
-use crate::passes::{Frame, mark, pixel_maps, readback, shade};
+use crate::passes::{Frame, mark, pixel_maps, readback, seen, shade};
 use crate::vk::{Buffer, Memory};
 use ash::vk;
 use half::f16;
@@ -55,6 +55,7 @@ pub fn look_at_frame(
     let images = image_buffers(session, resolution, view_names.map_or(0, <[String]>::len))?;
     let (has_lists, sharing) = (engine.method().has_lists(), engine.method().kind().sharing);
     let mut look_closer = |r: &mut Recorder, frame: &Frame| {
+        seen::record(r, frame);
         if has_lists {
             (0..frame.clusterings.len()).for_each(|c| mark::count_fragments(r, frame, c));
         }

@@ -41,6 +41,7 @@ use crate::methods::{GridBox, Method};
 use crate::pass::{Recorder, ScopeTree, Timed};
 use crate::passes::{Draws, Frame};
 use crate::pipelines::Pipelines;
+use crate::shading::Shading;
 use crate::vk::{Buffer, Context, Memory};
 use crate::{Result, frame};
 use ash::vk;
@@ -59,6 +60,7 @@ pub struct Engine {
     bounds: ClusterBounds,
     grid_box: GridBox,
     assigner: Assigner,
+    shading: Shading,
     resolution: [u32; 2],
     timed: Timed,
     pipelines: Pipelines,
@@ -111,6 +113,7 @@ impl Engine {
             grid_box: run.grid_box,
             marking: run.marking,
             assigner: chosen.assigner,
+            shading: run.shading[0],
             resolution: run.resolution,
             timed: timed(run.scopes),
             staging: [staging()?, staging()?],
@@ -250,6 +253,7 @@ impl Engine {
             bounds: self.bounds,
             marking: self.marking,
             assigner: self.assigner,
+            shading: self.shading,
             shaded: self.shaded,
             lights: &self.lights,
             light_staging: &self.staging[slot],

@@ -133,6 +133,7 @@ impl Chosen {
             assigner: self.assigner,
             test: self.test,
             lights_at_once: lights_at_once(self.method.has_lists(), mode.lights),
+            shading: run.shading[0],
             attenuation: run.attenuation,
             counting: mode.counting,
         }

@@ -32,7 +32,7 @@ macro_rules! counters {
 counters! {
     /// Fragment shader invocations that shaded.
     fragments_shaded,
-    /// Fragments whose cluster was not marked visible; always 0.
+    /// Fragments that are seen whose cluster was not marked visible; always 0.
     fragments_without_cluster,
     /// Evaluations of one light for one fragment.
     lighting_computations,
@@ -40,6 +40,8 @@ counters! {
     needed_computations,
     /// Tests of a light's volume against a cluster or a node.
     intersection_tests,
+    /// Fragments that were shaded and are hidden in the end, with overdraw.
+    fragments_hidden,
 }
 
 #[cfg(test)]

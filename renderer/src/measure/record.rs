@@ -145,10 +145,14 @@ impl FrameCounts {
     /// Refuses what must never happen, so that no result of such a frame is kept.
     ///
     /// # Errors
-    /// [`Error::Internal`] where a shaded fragment found no visible cluster, or visible clusters or light indices were
-    /// dropped.
+    /// [`Error::Internal`] where a fragment that is seen found no visible cluster or was not shaded, or visible clusters or light
+    /// indices were dropped.
     pub fn check(&self) -> Result<()> {
+        let DeviceCounts { fragments_shaded: shaded, fragments_hidden: hidden, .. } = self.counters;
+        // What is seen is taken off what may be hidden.
+        let unshaded = if hidden > shaded { hidden.wrapping_neg() } else { 0 };
         let faults = [
+            (unshaded, "fragments are seen that were not shaded"),
             (self.counters.fragments_without_cluster, "shaded fragments found no visible cluster"),
             (self.light_indices_dropped(), "light indices did not fit and were dropped"),
             (self.visible_clusters_dropped(), "visible clusters did not fit and were dropped"),
@@ -177,11 +181,13 @@ mod tests {
         let whole =
             FrameCounts { frame: 7, clusterings: vec![ClusteringCounts::default(); 2], ..Default::default() };
         whole.check().unwrap();
-        let mut faults = [whole.clone(), whole.clone(), whole];
+        let mut faults = [whole.clone(), whole.clone(), whole.clone(), whole];
         faults[0].counters.fragments_without_cluster = 3;
         faults[1].clusterings[1].light_indices_dropped = 4;
         faults[2].clusterings[0].visible_clusters_dropped = 5;
-        for (counts, what) in faults.iter().zip(["3 shaded", "4 light indices", "5 visible clusters"]) {
+        faults[3].counters.fragments_hidden = 0_u64.wrapping_sub(6);
+        let words = ["3 shaded", "4 light indices", "5 visible clusters", "6 fragments are seen"];
+        for (counts, what) in faults.iter().zip(words) {
             let error = counts.check().unwrap_err();
             assert!(error.to_string().starts_with(&format!("frame 7: {what}")), "{error}");
             assert_eq!(error.exit_code(), 1);

@@ -12,6 +12,8 @@ pub trait Row: Serialize + DeserializeOwned + PartialEq {
     const FILE: &'static str;
     /// Its columns.
     const COLUMNS: &'static [&'static str];
+    /// Columns that earlier versions did not write; what they lack is 0.
+    const ADDED: &'static [&'static str];
 
     /// The first column whose value its type allows and no run has.
     fn unsound(&self) -> Option<&'static str>;
@@ -42,9 +44,12 @@ impl Cell for Option<f64> {
     }
 }
 
-/// Declares a row by its file, its name and its columns.
+/// Declares a row by its file, its name and its columns, of which those that were added later have a default.
 macro_rules! row {
-    ($(#[$doc:meta])* $file:literal $name:ident { $($(#[$meta:meta])* $column:ident: $type:ty,)* }) => {
+    (
+        $(#[$doc:meta])*
+        $file:literal $name:ident $(added $($added:ident)+)? { $($(#[$meta:meta])* $column:ident: $type:ty,)* }
+    ) => {
         $(#[$doc])*
         #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
         pub struct $name {
@@ -54,6 +59,7 @@ macro_rules! row {
         impl Row for $name {
             const FILE: &'static str = $file;
             const COLUMNS: &'static [&'static str] = &[$(stringify!($column)),*];
+            const ADDED: &'static [&'static str] = &[$($(stringify!($added)),+)?];
 
             fn unsound(&self) -> Option<&'static str> {
                 let cells = [$((stringify!($column), self.$column.is_sound())),*];
@@ -73,7 +79,7 @@ macro_rules! frame_row {
         row! {
             /// A frame: the counters of the atemporal run, and GPU milliseconds, of each stage the minimum over the
             /// temporal runs; `None` where nothing was timed.
-            "frames.csv" FrameRow {
+            "frames.csv" FrameRow added fragments_hidden {
                 /// Frame number in the recording.
                 frame: u32,
                 /// Its time in the recording, seconds.
@@ -135,9 +141,13 @@ frame_row! {
         needed_computations: u64 = |counts| counts.counters.needed_computations;
         /// Sphere against cluster tests, of nodes of the hierarchy too.
         intersection_tests: u64 = FrameCounts::intersection_tests;
-        /// Invocations of the shading pass that passed the depth test.
+        /// Invocations of the shading pass that passed the depth test; with overdraw, of masked surfaces those that no opaque
+        /// surface hides.
         fragments_shaded: u64 = |counts| counts.counters.fragments_shaded;
-        /// Fragments whose cluster was not marked visible: none.
+        /// Those of them that something hides in the end, with overdraw.
+        #[serde(default)]
+        fragments_hidden: u64 = |counts| counts.counters.fragments_hidden;
+        /// Fragments that are seen whose cluster was not marked visible: none.
         fragments_without_cluster: u64 = |counts| counts.counters.fragments_without_cluster;
         /// Light indices that did not fit: none.
         light_indices_dropped: u64 = FrameCounts::light_indices_dropped;

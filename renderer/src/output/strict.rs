@@ -18,7 +18,8 @@ pub struct Line<'a> {
     number: u64,
 }
 
-/// Gives every row of a table of the run in `directory`, which has the row's columns in any order and no others.
+/// Gives every row of a table of the run in `directory`, which has the row's columns in any order and no others; of an earlier
+/// version's table columns that were added later are 0.
 ///
 /// # Errors
 /// The file is missing, cut off or no such table; or `take` refuses a row.
@@ -29,7 +30,7 @@ pub fn each_row<R: Row>(directory: &Path, mut take: impl FnMut(&Line<'_>, R) -> 
     // No cell of these tables is quoted: a stray quote must not swallow the lines behind it.
     let mut reader = ReaderBuilder::new().quoting(false).from_reader(bytes.as_slice());
     let header = reader.headers().map_err(broken)?.clone();
-    check_header(path, R::COLUMNS, &header)?;
+    check_header::<R>(path, &header)?;
     let mut record = StringRecord::new();
     while reader.read_record(&mut record).map_err(broken)? {
         let line = Line { path, number: record.position().map_or(0, csv::Position::line) };
@@ -54,17 +55,18 @@ fn read_whole(path: &Path) -> Result<Vec<u8>> {
     Err(refuse(path, problem))
 }
 
-fn check_header(path: &Path, columns: &[&str], header: &StringRecord) -> Result<()> {
+fn check_header<R: Row>(path: &Path, header: &StringRecord) -> Result<()> {
     let refuse = |problem: String| Err(Line { path, number: 1 }.refuse(problem));
     for (place, name) in header.iter().enumerate() {
-        if !columns.contains(&name) {
+        if !R::COLUMNS.contains(&name) {
             return refuse(format!("a column `{}` is not known", shown(name)));
         }
         if header.iter().take(place).any(|earlier| earlier == name) {
             return refuse(format!("two columns are called `{name}`"));
         }
     }
-    match columns.iter().find(|column| !header.iter().any(|name| name == **column)) {
+    let mut required = R::COLUMNS.iter().filter(|column| !R::ADDED.contains(column));
+    match required.find(|column| !header.iter().any(|name| name == **column)) {
         Some(missing) => refuse(format!("column `{missing}` is missing")),
         None => Ok(()),
     }

@@ -18,6 +18,8 @@ use std::sync::Arc;
 pub enum DepthUse {
     /// Cleared to far, tested and written.
     Write,
+    /// What is there is kept, tested and written.
+    Keep,
     /// Depth is tested and not written.
     Test,
 }
@@ -171,7 +173,7 @@ impl Attached<'_> {
         let color = move |&(name, _): &(TargetName, ColorUse)| {
             Access::image(targets[name].drawn.image.handle, vk::ImageAspectFlags::COLOR, Use::Color)
         };
-        let usage = if self.depth == DepthUse::Write { Use::Depth } else { Use::DepthTest };
+        let usage = if self.depth == DepthUse::Test { Use::DepthTest } else { Use::Depth };
         let depth = Access::image(targets.depth.image.handle, vk::ImageAspectFlags::DEPTH, usage);
         self.colors.iter().map(color).chain([depth])
     }
@@ -214,6 +216,11 @@ impl Attached<'_> {
             DepthUse::Write => (
                 vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL,
                 vk::AttachmentLoadOp::CLEAR,
+                vk::AttachmentStoreOp::STORE,
+            ),
+            DepthUse::Keep => (
+                vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL,
+                vk::AttachmentLoadOp::LOAD,
                 vk::AttachmentStoreOp::STORE,
             ),
             DepthUse::Test => (

@@ -9,6 +9,7 @@ use crate::gpu_scene::GpuScene;
 use crate::layouts::BoundBuffers;
 use crate::pass::{DepthImage, ScopeName};
 use crate::pipelines::Pipelines;
+use crate::shading::Shading;
 use crate::targets::TargetName;
 use crate::vk::{Buffer, Image};
 use ash::vk;
@@ -154,6 +155,8 @@ pub struct Frame<'a> {
     pub marking: Marking,
     /// How the light lists are built.
     pub assigner: Assigner,
+    /// How surfaces are shaded.
+    pub shading: Shading,
     /// Whether views are shaded; else the frame ends with the light lists.
     pub shaded: bool,
     /// The lights on the device.

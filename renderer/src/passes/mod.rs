@@ -24,6 +24,7 @@ pub mod probes;
 pub mod readback;
 pub mod resolve;
 pub mod scan;
+pub mod seen;
 pub mod shade;
 pub mod spheres;
 

@@ -4,6 +4,7 @@ use super::{Output, PipelineStore, Variant};
 use crate::Result;
 use crate::draw_list::SurfaceKind;
 use crate::layouts::Pipeline;
+use crate::shading::Shading;
 use crate::targets::TargetName;
 use crate::texture_sets::TextureSet;
 use crate::vk::GraphicsDesc;
@@ -45,8 +46,9 @@ pub struct DebugPipelines {
 }
 
 impl PipelineStore {
-    /// The pipelines of stills of a variant, which counts.
+    /// The pipelines of stills of a variant, which counts. They draw over a prepass of their own.
     pub fn debug(&mut self, variant: &Variant) -> Result<DebugPipelines> {
+        let variant = &Variant { shading: Shading::Prepass, ..*variant };
         let defines = variant.defines();
         let clay = "debug/clay.frag";
         let clusters = "debug/pixel_clusters.comp";

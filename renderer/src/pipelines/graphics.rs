@@ -22,13 +22,15 @@ pub(super) enum Output {
     Visits(SurfaceKind, Visit),
     /// Tests depth; writes radiance, of which these textures are a part.
     Shades(SurfaceKind, TextureSet),
+    /// Tests depth; counts what is seen in the end.
+    Sees(SurfaceKind),
 }
 
 impl Output {
     /// The colour targets it draws into.
     fn targets(self) -> &'static [TargetName] {
         match self {
-            Self::Depth | Self::Visits(..) => &[],
+            Self::Depth | Self::Visits(..) | Self::Sees(_) => &[],
             Self::Shades(..) => &[TargetName::Radiance],
         }
     }
@@ -83,8 +85,8 @@ impl PipelineStore {
                 }],
                 attributes: &attributes,
                 dynamic_facing: true,
-                depth_write: output == Output::Depth,
-                depth_compare: Some(depth_compare(output)),
+                depth_write: variant.writes_depth(output),
+                depth_compare: Some(depth_compare(variant, output)),
                 blend: matches!(output, Output::Shades(SurfaceKind::Transparent, _)),
                 samples: vk::SampleCountFlags::from_raw(variant.samples),
                 sample_shading: variant.per_sample() && output != Output::Depth,
@@ -109,7 +111,10 @@ fn graphics_defines(variant: &Variant, textured: bool, output: Output) -> Define
     match output {
         Output::Depth => defines,
         Output::Visits(_, visit) => defines.with("VISIT", visit.define()),
+        Output::Sees(kind) => defines.with("ALPHA_TEST", u32::from(kind == SurfaceKind::Masked)),
         Output::Shades(kind, _) => defines
+            .with("OVERDRAW", u32::from(variant.overdraws(output)))
+            .with("ALPHA_TEST", u32::from(variant.overdraws(output) && kind == SurfaceKind::Masked))
             .with("TRANSPARENT", u32::from(kind == SurfaceKind::Transparent))
             .with("LIGHTS_AT_ONCE", variant.lights_at_once),
     }
@@ -120,6 +125,7 @@ fn varyings(textured: bool, output: Output) -> u32 {
     match output {
         Output::Depth => u32::from(textured),
         Output::Visits(..) => 0,
+        Output::Sees(kind) => u32::from(kind == SurfaceKind::Masked),
         Output::Shades(..) => 2,
     }
 }
@@ -128,16 +134,19 @@ fn varyings(textured: bool, output: Output) -> u32 {
 fn textures(textured: bool, output: Output) -> TextureSet {
     match output {
         Output::Depth if textured => TextureSet::BASE_COLOR,
-        Output::Depth | Output::Visits(..) => TextureSet::NONE,
+        Output::Sees(SurfaceKind::Masked) => TextureSet::BASE_COLOR,
+        Output::Depth | Output::Visits(..) | Output::Sees(_) => TextureSet::NONE,
         Output::Shades(_, set) => set,
     }
 }
 
-/// Depth is reversed; what the prepass drew is found again by equality, what is transparent lies before it.
-fn depth_compare(output: Output) -> vk::CompareOp {
+/// Depth is reversed; what the prepass drew is found again by equality, what is transparent lies before it. With overdraw, of
+/// surfaces at one depth the last is seen, as it is where all of them are found again.
+fn depth_compare(variant: &Variant, output: Output) -> vk::CompareOp {
     match output {
         Output::Depth => vk::CompareOp::GREATER,
-        Output::Visits(kind, _) | Output::Shades(kind, _) => match kind {
+        Output::Shades(..) if variant.overdraws(output) => vk::CompareOp::GREATER_OR_EQUAL,
+        Output::Visits(kind, _) | Output::Shades(kind, _) | Output::Sees(kind) => match kind {
             SurfaceKind::Transparent => vk::CompareOp::GREATER_OR_EQUAL,
             SurfaceKind::Opaque | SurfaceKind::Masked => vk::CompareOp::EQUAL,
         },

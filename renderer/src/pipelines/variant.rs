@@ -6,6 +6,7 @@ use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
 use crate::geometry::{CellShape, Separators, Sharing, SliceLaw, SphereTest};
 use crate::lights::Attenuation;
+use crate::shading::Shading;
 
 /// What a run's shaders are specialised for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,6 +37,8 @@ pub struct Variant {
     pub test: SphereTest,
     /// Lights that shading evaluates in one turn of its loop.
     pub lights_at_once: u32,
+    /// How surfaces are shaded.
+    pub shading: Shading,
     /// How lights fade.
     pub attenuation: Attenuation,
     /// Whether counters are compiled in: the atemporal run.
@@ -73,8 +76,27 @@ impl Variant {
             && match output {
                 Output::Depth => true,
                 Output::Shades(kind, _) => one_clustering && kind != SurfaceKind::Transparent,
-                Output::Visits(..) => false,
+                Output::Visits(..) | Output::Sees(_) => false,
             }
+    }
+
+    /// Whether a pipeline shades what may be hidden in the end.
+    pub(super) fn overdraws(&self, output: Output) -> bool {
+        self.shading == Shading::Overdraw
+            && matches!(output, Output::Shades(SurfaceKind::Opaque | SurfaceKind::Masked, _))
+    }
+
+    /// Whether a pipeline writes depth. What is cut out must leave none, for which shading gives up the early tests that
+    /// counters need: masked surfaces are counted without leaving any.
+    pub(super) fn writes_depth(&self, output: Output) -> bool {
+        let counts_masked = self.counting && matches!(output, Output::Shades(SurfaceKind::Masked, _));
+        output == Output::Depth || self.overdraws(output) && !counts_masked
+    }
+
+    /// What draws surfaces of a kind into the picture: with overdraw masked ones are counted by other pipelines.
+    pub(super) fn drawing(&self, kind: SurfaceKind) -> Self {
+        let counted_apart = self.shading == Shading::Overdraw && kind == SurfaceKind::Masked;
+        Self { counting: self.counting && !counted_apart, ..*self }
     }
 
     /// The defines of every shader of this variant.

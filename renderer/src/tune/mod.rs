@@ -69,6 +69,11 @@ fn check(config: &Config) -> Result<()> {
     if config.runs.is_none() {
         return Err(Error::input("runs: nothing is timed in 0 runs: give --runs auto, or 1 or more"));
     }
+    if config.shading.len() > 1 {
+        return Err(Error::input(
+            "shading: sizes are searched for one way of shading: tune one after the other",
+        ));
+    }
     let counts: Vec<u32> = config.lights.iter().map(|lighting| lighting.count).collect();
     match counts.iter().enumerate().find(|(place, count)| counts[..*place].contains(count)) {
         Some((_, count)) => Err(Error::Input(format!(

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::config::{Assign, Exclude};
+use crate::shading::Shading;
 use std::collections::BTreeSet;
 
 /// Several values on every axis.
@@ -16,6 +17,7 @@ fn everything() -> Config {
         clusters: vec![Clusters::Visible.into(), Clusters::All.into()],
         bounds: vec![Bounds::Measured.into(), Choice::Auto],
         slices: vec![Choice::Auto, SliceLaw::Geometric.into(), SliceLaw::Linear.into()],
+        shading: vec![Shading::Prepass, Shading::Overdraw],
         ..Config::default()
     }
 }
@@ -27,8 +29,8 @@ fn runs() -> Vec<Config> {
 #[test]
 fn the_product_has_every_combination_that_differs_once() {
     // Of three tests, Persp has its own under two names and Ortho has not, and so it is of slices, which Ortho has none of;
-    // the third method knows no ways.
-    assert_eq!(runs().len(), 2 * 2 * (2 * 2 * 2 * 2 * 2 + 2 * 3 * 2 * 2 + 1));
+    // the third method knows no ways of assignment. All are shaded in two ways.
+    assert_eq!(runs().len(), 2 * 2 * 2 * (2 * 2 * 2 * 2 * 2 + 2 * 3 * 2 * 2 + 1));
     for run in runs() {
         assert_eq!((run.by_scene(), run.cases()), (vec![run.clone()], vec![run]));
     }

@@ -1,4 +1,5 @@
 use super::super::RunWriter;
+use super::super::saved::saved_frames;
 use super::super::testing::{counts, manifest, times};
 use super::*;
 use std::fs;
@@ -79,8 +80,8 @@ fn rows_and_cells_and_columns_that_miss_or_are_too_many_are_found() {
     let cases = [
         ("frames.csv", "gpu_ms_shade\n", "gpu_ms_shade,more\n", "line 1: a column `more` is not known"),
         ("frames.csv", "time_s,views", "time_s,time_s", "line 1: two columns are called `time_s`"),
-        ("frames.csv", ",4.000000\n", ",4.000000,1\n", "line 2: 21 cells under a header of 20"),
-        ("frames.csv", ",4.000000\n", "\n", "line 2: 19 cells under a header of 20"),
+        ("frames.csv", ",4.000000\n", ",4.000000,1\n", "line 2: 22 cells under a header of 21"),
+        ("frames.csv", ",4.000000\n", "\n", "line 2: 20 cells under a header of 21"),
         ("clusterings.csv", "40,1,2,3,4,1,0,1000,ffffffffffffffff\n", "", "line 3: frame 80, clustering 0"),
         (
             "clusterings.csv",
@@ -115,6 +116,25 @@ fn rows_and_cells_and_columns_that_miss_or_are_too_many_are_found() {
     }
     let missing = said("frames.csv", "frame,time_s,", "frame,");
     assert!(missing.starts_with("line 1: column `time_s` is missing"), "{missing}");
+}
+
+#[test]
+fn tables_of_earlier_versions_lack_what_was_added_later() {
+    let out = whole();
+    let directory = out.path().join("run");
+    let rows = saved_frames(&directory).unwrap();
+    let path = directory.join("frames.csv");
+    let text = fs::read_to_string(&path).unwrap();
+    let columns: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    let added = columns.iter().position(|column| *column == "fragments_hidden").unwrap();
+    let without = |line: &str| {
+        let mut cells: Vec<&str> = line.split(',').collect();
+        cells.remove(added);
+        cells.join(",") + "\n"
+    };
+    fs::write(&path, text.lines().map(without).collect::<String>()).unwrap();
+    check_run(&directory).unwrap();
+    assert_eq!(saved_frames(&directory).unwrap(), rows);
 }
 
 #[test]

@@ -1,0 +1,31 @@
+//! Which fragments are seen in the end, with overdraw: shading has counted all that may be hidden. Atemporal runs alone, after
+//! the frame, whose depth is that of shading.
+
+use super::draws::{self, DepthUse, SurfacePass, SurfacePipelines};
+use super::inputs::{Eyes, Frame};
+use crate::buffers::{BufferName as B, set};
+use crate::draw_list::SurfaceKind;
+use crate::pass::Recorder;
+
+/// Takes the fragments of all views that are seen off the hidden ones, and counts those whose group is missing. There is nothing
+/// to do after a prepass, where what is shaded is seen.
+pub fn record(r: &mut Recorder, frame: &Frame) {
+    let Some([opaque, masked]) = &frame.pipelines.seen else { return };
+    for view in 0..frame.targets.len() {
+        draws::surfaces(
+            r,
+            frame,
+            &SurfacePass {
+                eyes: Eyes::One(view),
+                colors: &[],
+                depth: DepthUse::Test,
+                draws: &[
+                    (SurfaceKind::Opaque, SurfacePipelines::One(opaque)),
+                    (SurfaceKind::Masked, SurfacePipelines::One(masked)),
+                ],
+                reads: set(&[B::ClusterBits, B::WordRanks, B::ListOffsets]),
+                writes: set(&[B::Counters]),
+            },
+        );
+    }
+}
