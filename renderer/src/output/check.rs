@@ -3,6 +3,7 @@
 
 use super::manifest::Manifest;
 use super::rows::{ClusteringRow, FrameRow, HistogramRow, KINDS, LIGHTS_PER_FRAGMENT, Row, TimingRow};
+use super::stages::is_everyones;
 use super::strict::{Line, each_row, refuse, shown};
 use crate::Result;
 use std::collections::BTreeMap;
@@ -130,7 +131,8 @@ fn kind_of(line: &Line<'_>, row: &HistogramRow) -> Result<usize> {
     kind.ok_or_else(|| line.refuse(format!("`{}` is no kind of histogram", shown(&row.kind))))
 }
 
-/// Every temporal run of every frame has the stages of the first; a device without timestamps gave none at all.
+/// Every temporal run of every frame has the stages of the first, but for those that follow changes alone; a device without
+/// timestamps gave none at all.
 fn check_timings(directory: &Path, frames: &[FrameRow], runs: u32) -> Result<()> {
     let mut stages: BTreeMap<(u32, u32), Vec<String>> = BTreeMap::new();
     each_row(directory, |line, row: TimingRow| {
@@ -146,7 +148,10 @@ fn check_timings(directory: &Path, frames: &[FrameRow], runs: u32) -> Result<()>
         Ok(())
     })?;
     let refuse = |problem: String| Err(refuse_table::<TimingRow>(directory, problem));
-    let Some(first) = stages.values().next() else {
+    let lasting = |stages: &Vec<String>| -> Vec<String> {
+        stages.iter().filter(|stage| is_everyones(stage)).cloned().collect()
+    };
+    let Some(first) = stages.values().next().map(lasting) else {
         return match frames.iter().any(FrameRow::is_timed) {
             true => refuse("holds no times, and frames.csv does".into()),
             false => Ok(()),
@@ -156,7 +161,7 @@ fn check_timings(directory: &Path, frames: &[FrameRow], runs: u32) -> Result<()>
         return refuse(format!("times frame {}, for which frames.csv has no gpu_ms_frame", row.frame));
     }
     for place in (0..runs).flat_map(|run| frames.iter().map(move |row| (run, row.frame))) {
-        if stages.get(&place) != Some(first) {
+        if stages.get(&place).map(lasting).as_ref() != Some(&first) {
             let (run, frame) = place;
             return refuse(format!("the stages of run {run}, frame {frame} are not all there"));
         }

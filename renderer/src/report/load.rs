@@ -152,10 +152,11 @@ fn pictures(directory: &Path) -> Vec<Picture> {
             let image = entry.path();
             let stem = image.file_name()?.to_str()?.strip_suffix(".png")?;
             let frame = stem.parse().ok()?;
-            let [lights, clusters, birdseye] = ["lights", "clusters", "birdseye"].map(|shown| {
-                Some(directory.join(format!("{stem}_{shown}.png"))).filter(|path| path.is_file())
-            });
-            Some(Picture { frame, image, lights, clusters, birdseye })
+            let [lights, clusters, slices, birdseye] =
+                ["lights", "clusters", "slices", "birdseye"].map(|shown| {
+                    Some(directory.join(format!("{stem}_{shown}.png"))).filter(|path| path.is_file())
+                });
+            Some(Picture { frame, image, lights, clusters, slices, birdseye })
         })
         .collect();
     found.sort_by_key(|picture| picture.frame);
