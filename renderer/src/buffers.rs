@@ -15,9 +15,6 @@
 //! Where bounds are measured, `views` and `grid` go to `cluster_bounds` once `visible_clusters` are there (bounds), and the
 //! lists are made from these.
 //!
-//! Where cells are tested as boxes, `grid` and `slice_planes` go to `cluster_boxes` first (build_boxes), in frames whose
-//! projection is not that of the last; the lists are made from these.
-//!
 //! Where the device culls, `views`, `instances`, `drawables` and `draw_order` go to `draw_commands` and
 //! `drawn_instances` before all that (cull).
 //!
@@ -27,17 +24,20 @@
 //! `group_lights`.
 
 mod info;
+mod memory;
 mod set;
 mod sizes;
 
 pub use info::{BufferInfo, BufferView, Element, Owner, Texels};
+pub use memory::Copies;
 pub use set::{BufferSet, set};
 pub use sizes::ClusteringSizes;
 
 use crate::gpu_interface::{
-    BLOCK_WORDS, COUNTER_COUNT, Candidate, ClusterBox, ClusterGroup, ClusteringState, DISPATCH_COUNT,
-    DispatchSize, GridData, InstanceData, LightData, LightNode, LightVolume, MEASUREMENT_WORDS, PixelData,
+    BLOCK_WORDS, COUNTER_COUNT, Candidate, ClusterGroup, ClusteringState, DISPATCH_COUNT, DispatchSize,
+    GridData, InstanceData, LightData, LightNode, LightVolume, MEASUREMENT_WORDS, PixelData,
 };
+use crate::measure::Purpose;
 use info::{buffer, bytes};
 
 /// Declares the names and what they name.
@@ -65,11 +65,13 @@ buffers! {
     /// control has parted.
     Views = buffer("views", Owner::Frame).uniform("ViewData views[MAX_VIEWS]");
     /// The grid of a clustering.
-    Grid = buffer("grid", Owner::ClusteringFrame).uniform("GridData grid").sized(|_| bytes::<GridData>(1));
+    Grid = buffer("grid", Owner::ClusteringFrame).uniform("GridData grid").sized(|_| bytes::<GridData>(1))
+        .serving(Purpose::Grouping);
     /// Depths between the slices of a perspective grid.
     SlicePlanes = buffer("slice_planes", Owner::ClusteringFrame)
         .storage("float slice_planes[]")
-        .sized(|s| bytes::<f32>(s.slice_planes.into()));
+        .sized(|s| bytes::<f32>(s.slice_planes.into()))
+        .serving(Purpose::Grouping);
     /// Lights, or candidates, in clustering space.
     LightVolumes = buffer("light_volumes", Owner::Clustering)
         .storage("LightVolume light_volumes[]")
@@ -78,25 +80,24 @@ buffers! {
     /// Whether each cluster of the grid is visible, a bit a cluster.
     ClusterBits = buffer("cluster_bits", Owner::Clustering)
         .storage("uint cluster_bits[]")
-        .sized(|s| bytes::<u32>(s.words()));
+        .sized(|s| bytes::<u32>(s.words()))
+        .serving(Purpose::Grouping);
     /// Visible clusters before each word of bits.
     WordRanks = buffer("word_ranks", Owner::Clustering)
         .storage("uint word_ranks[]")
-        .sized(|s| bytes::<u32>(s.words()));
+        .sized(|s| bytes::<u32>(s.words()))
+        .serving(Purpose::Grouping);
     /// Linear indices of the visible clusters, ascending.
     VisibleClusters = buffer("visible_clusters", Owner::Clustering)
         .storage("uint visible_clusters[]")
-        .sized(|s| bytes::<u32>(s.visible()));
+        .sized(|s| bytes::<u32>(s.visible()))
+        .serving(Purpose::Grouping);
     /// What the samples of each visible cluster take of its cell, where that is measured: the lowest words with all bits
     /// turned, then the highest.
     ClusterBounds = buffer("cluster_bounds", Owner::Clustering)
         .storage("uint cluster_bounds[]")
-        .sized(|s| bytes::<u32>(s.bound_words()));
-    /// The box around each cell of the grid, where that is tested against lights; it stays until the projection changes.
-    ClusterBoxes = buffer("cluster_boxes", Owner::Clustering)
-        .storage("ClusterBox cluster_boxes[]")
-        .texels("cluster_box", Element::Struct(ClusterBox::INFO))
-        .sized(|s| bytes::<ClusterBox>(s.boxes()));
+        .sized(|s| bytes::<u32>(s.bound_words()))
+        .serving(Purpose::Grouping);
     /// Sums of the blocks of a prefix sum.
     BlockSums = buffer("block_sums", Owner::Clustering)
         .storage("uint block_sums[]")
@@ -108,12 +109,14 @@ buffers! {
     /// Where each list begins, and the total.
     ListOffsets = buffer("list_offsets", Owner::Clustering)
         .storage("uint list_offsets[]")
-        .sized(|s| bytes::<u32>(s.offsets()));
+        .sized(|s| bytes::<u32>(s.offsets()))
+        .serving(Purpose::Lists);
     /// The lights of the lists.
     LightIndices = buffer("light_indices", Owner::Clustering)
         .storage("uint light_indices[]")
         .texels("index", Element::Word)
-        .sized(|s| bytes::<u32>(s.capacities.light_indices.into()));
+        .sized(|s| bytes::<u32>(s.capacities.light_indices.into()))
+        .serving(Purpose::Lists);
     /// What the device finds out: `new_state` is written, `state` is what earlier dispatches wrote.
     State = buffer("state", Owner::Clustering)
         .storage("ClusteringState new_state")
@@ -203,7 +206,8 @@ buffers! {
     /// Lights of the frame, world space.
     Lights = buffer("lights", Owner::Engine)
         .texels("light", Element::Struct(LightData::INFO))
-        .sized(|s| bytes::<LightData>(s.lights.into()));
+        .sized(|s| bytes::<LightData>(s.lights.into()))
+        .serving(Purpose::Lights);
     /// Boxes around the scene's models, in drawing order.
     ModelBoxes = buffer("model_boxes", Owner::Scene).storage("ModelBox model_boxes[]");
     /// What is drawn of the scene where the device culls.

@@ -84,11 +84,12 @@ pub struct Pipelines {
     pub seen: Option<[Arc<Pipeline>; 2]>,
     /// What is known of each pixel, for images.
     pub pixel_maps: Arc<Pipeline>,
+    /// How much depth jumps from pixel to pixel, where all is counted.
+    pub depth_steps: Option<Arc<Pipeline>>,
     /// The model of each pixel, of opaque and of masked surfaces, where groups are models and all is counted.
     pub pixel_models: Option<[Arc<Pipeline>; 2]>,
     clustered: Option<ClusteredPipelines>,
     bounds: Option<VisitPipelines>,
-    build_boxes: Option<Arc<Pipeline>>,
     accelerated: Option<AcceleratedPipelines>,
     all: Vec<Arc<Pipeline>>,
 }
@@ -112,11 +113,6 @@ impl Pipelines {
     /// Measures the bounds of visible clusters; only its pass asks.
     pub fn bounds(&self) -> &VisitPipelines {
         self.bounds.as_ref().expect("stage bounds runs where bounds are measured")
-    }
-
-    /// Makes the boxes around cells; `None` where they are not tested.
-    pub fn build_boxes(&self) -> Option<&Pipeline> {
-        self.build_boxes.as_deref()
     }
 
     /// What assignment other than by brute force runs; only its passes ask.
@@ -184,10 +180,6 @@ impl PipelineStore {
             ClusterBounds::Cell => None,
             ClusterBounds::Depth | ClusterBounds::Box => Some(self.visit(variant, Visit::Bounds)?),
         };
-        let build_boxes = match variant.is_boxed() {
-            true => Some(self.compute("cluster/build_boxes.comp", &variant.test_defines())?),
-            false => None,
-        };
         let accelerated = match variant.assigner {
             Assigner::Brute => None,
             Assigner::Hierarchy | Assigner::Scatter => Some(self.accelerated(variant)?),
@@ -207,10 +199,10 @@ impl PipelineStore {
                 .transpose()?,
             seen: overdraw_counted.then(|| self.seen(variant)).transpose()?,
             pixel_maps: self.compute("measure/pixel_maps.comp", &variant.defines())?,
+            depth_steps: self.depth_steps(variant)?,
             pixel_models: self.pixel_models(variant)?,
             clustered,
             bounds,
-            build_boxes,
             accelerated,
             all: vec![],
         };
@@ -238,6 +230,12 @@ impl PipelineStore {
     fn seen(&mut self, variant: &Variant) -> Result<[Arc<Pipeline>; 2]> {
         let mut of = |kind| self.graphics(variant, Some("measure/seen.frag"), Output::Sees(kind));
         Ok([of(SurfaceKind::Opaque)?, of(SurfaceKind::Masked)?])
+    }
+
+    fn depth_steps(&mut self, variant: &Variant) -> Result<Option<Arc<Pipeline>>> {
+        // It is the same for all methods.
+        let defines = Defines(vec![]).with("SAMPLES", variant.samples).with("COUNTERS", 1);
+        variant.counting.then(|| self.compute("measure/depth_steps.comp", &defines)).transpose()
     }
 
     fn pixel_models(&mut self, variant: &Variant) -> Result<Option<[Arc<Pipeline>; 2]>> {

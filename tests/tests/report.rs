@@ -2,7 +2,8 @@
 
 use manylight::config::{Config, ExrLayout};
 use manylight::measure::{
-    ClusterRecord, ClusteringCounts, DeviceCounts, FrameCounts, FrameTimes, StageTime, ViewPixels,
+    ClusterRecord, ClusteringCounts, DeviceCounts, FrameCounts, FrameTimes, Purpose, StageTime,
+    StructureMemory, ViewPixels,
 };
 use manylight::output::{Manifest, RUN_FORMAT, RunWriter, Source};
 use manylight_tests::{manylight, program};
@@ -37,7 +38,9 @@ fn write_run(out: &Path, scene: [&str; 2], views: u32, method: &str, lights: u32
         doubts: vec![],
         timing: None,
         capacities: Default::default(),
+        memory_bytes: None,
         growth: vec![],
+        discontinuity: None,
         started: "2026-01-01T00:00:00Z".into(),
         duration_s: 1.0,
     };
@@ -51,6 +54,7 @@ fn write_run(out: &Path, scene: [&str; 2], views: u32, method: &str, lights: u32
         writer.write_birdseye(frame, &image::RgbImage::new(32, 20)).unwrap();
     }
     writer.write_counted(&counts).unwrap();
+    writer.write_memory(&memory(lights)).unwrap();
     writer.finish(&manifest, &counts, &times).unwrap();
 }
 
@@ -72,6 +76,21 @@ fn counts(frame: u32, views: u32, clusterings: u32) -> FrameCounts {
         counters: DeviceCounts { lighting_computations: 1000 + u64::from(frame), ..DeviceCounts::default() },
         ..FrameCounts::default()
     }
+}
+
+fn memory(lights: u32) -> [StructureMemory; 3] {
+    let of = |structure, purpose, bytes| StructureMemory {
+        structure,
+        purpose,
+        allocated: 4 * bytes,
+        used: bytes,
+        most: 2 * bytes,
+    };
+    [
+        of("visible_clusters", Purpose::Grouping, 4096),
+        of("light_indices", Purpose::Lists, 10 * u64::from(lights)),
+        of("lights", Purpose::Lights, 48 * u64::from(lights)),
+    ]
 }
 
 fn times(run: u32, frame: u32) -> FrameTimes {

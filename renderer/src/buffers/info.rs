@@ -2,6 +2,7 @@
 
 use super::{BufferName, ClusteringSizes};
 use crate::gpu_types::StructInfo;
+use crate::measure::Purpose;
 use ash::vk;
 use std::fmt::Write as _;
 
@@ -105,13 +106,23 @@ pub struct BufferInfo {
     pub texels: Option<Texels>,
     /// GLSL member of the uniform buffer.
     pub uniform: Option<&'static str>,
+    /// What the buffer is for.
+    pub purpose: Purpose,
     /// Size in bytes, where a clustering's sizes decide; 0 where the way at hand leaves the buffer empty.
     pub size: Option<fn(&ClusteringSizes) -> u64>,
 }
 
-/// A buffer, of which nothing more is known yet.
+/// A buffer, of which nothing more is known yet; it serves the building of lists unless it says otherwise.
 pub(super) const fn buffer(name: &'static str, owner: Owner) -> BufferInfo {
-    BufferInfo { name, owner, storage: None, texels: None, uniform: None, size: None }
+    BufferInfo {
+        name,
+        owner,
+        storage: None,
+        texels: None,
+        uniform: None,
+        purpose: Purpose::Building,
+        size: None,
+    }
 }
 
 /// Size in bytes of `count` values.
@@ -132,6 +143,11 @@ impl BufferInfo {
 
     pub(super) const fn uniform(mut self, member: &'static str) -> Self {
         self.uniform = Some(member);
+        self
+    }
+
+    pub(super) const fn serving(mut self, purpose: Purpose) -> Self {
+        self.purpose = purpose;
         self
     }
 

@@ -19,10 +19,18 @@ pub struct Args {
     /// A row for every stage of every frame of every temporal run, instead of one for every frame.
     #[arg(long)]
     stages: bool,
+
+    /// A row for every structure on the device, with the bytes that it takes, instead.
+    #[arg(long, conflicts_with = "stages")]
+    memory: bool,
 }
 
 /// Writes the table and says what is in it.
 pub fn run(args: &Args, console: &Console) -> Result<()> {
-    let rows = if args.stages { Rows::Stages } else { Rows::Frames };
+    let rows = match (args.stages, args.memory) {
+        (true, _) => Rows::Stages,
+        (_, true) => Rows::Memory,
+        _ => Rows::Frames,
+    };
     console.result(&export(&args.directories, rows, &args.out)?)
 }

@@ -67,7 +67,7 @@ impl Fixture {
         write("run.json", manifest.to_string());
         let mut frames = "frame,time_s,views,clusterings,clusters,visible_clusters,light_indices,lighting_computations,\
             needed_computations,intersection_tests,fragments_shaded,fragments_without_cluster,light_indices_dropped,\
-            visible_clusters_dropped,gpu_ms_frame,gpu_ms_cluster,gpu_ms_visibility,gpu_ms_count_lights,\
+            visible_clusters_dropped,depth_discontinuity,gpu_ms_frame,gpu_ms_cluster,gpu_ms_visibility,gpu_ms_count_lights,\
             gpu_ms_assign_lights,gpu_ms_shade\n"
             .to_owned();
         let mut clusterings =
@@ -77,7 +77,7 @@ impl Fixture {
         let mut histograms = "frame,clustering,kind,bin,clusters,fragments\n".to_owned();
         let gpu_ms = if self.runs.is_empty() { "" } else { "1.0" };
         for (frame, count) in &self.frames {
-            frames += &format!("{frame},0.5,1,1,999,{count},7,5,5,9,0,0,0,0,{gpu_ms},,,,,\n");
+            frames += &format!("{frame},0.5,1,1,999,{count},7,5,5,9,0,0,0,0,0,{gpu_ms},,,,,\n");
             clusterings += &format!("{frame},0,1,2,3,{count},7,9,{count:016x}\n");
             histograms += &format!("{frame},0,lights_per_cluster,{},{count},1\n", self.lights_per_cluster);
             histograms += &format!("{frame},0,fragments_per_cluster,1,{count},1\n");
@@ -91,6 +91,7 @@ impl Fixture {
         write("clusterings.csv", clusterings);
         write("timings.csv", timings);
         write("histograms.csv", histograms);
+        write("memory.csv", "structure,purpose,allocated,used,most\n".to_owned());
     }
 }
 
@@ -120,11 +121,8 @@ fn equal_runs_are_joined_wherever_they_lie_and_whatever_their_output_was_called(
     let visible = counter(&same, "visible_clusters");
     assert_eq!((visible.a, visible.b, visible.ratio), (Some(150), Some(150), Some(1.0)));
     let metrics: Vec<&str> = same.runs[0].counters.iter().map(|counter| counter.metric.as_str()).collect();
-    assert_eq!(
-        metrics[metrics.len() - 3..],
-        ["visible_clusters_dropped", "clusterings.csv", "histograms.csv"]
-    );
-    assert!(same.to_string().contains("counters: all 15 equal in 2 frames"), "{same}");
+    assert_eq!(metrics[metrics.len() - 3..], ["depth_discontinuity", "clusterings.csv", "histograms.csv"]);
+    assert!(same.to_string().contains("counters: all 16 equal in 2 frames"), "{same}");
 }
 
 #[test]

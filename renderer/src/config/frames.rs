@@ -105,10 +105,11 @@ impl ExrFrames {
         matches!(self, Self::List(frames) if frames.is_empty())
     }
 
-    /// Whether this frame is asked for, given that it is rendered.
+    /// Whether this frame is asked for by name, given that it is rendered: which frames counting finds is not known yet.
     pub fn contains(&self, frame: u32) -> bool {
         match self {
             Self::All => true,
+            Self::Discontinuity => false,
             Self::List(frames) => frames.binary_search(&frame).is_ok(),
         }
     }
@@ -131,10 +132,20 @@ impl ExrFrames {
     #[must_use]
     pub fn within(&self, rendered: &FrameRange) -> Self {
         match self {
-            Self::All => Self::All,
+            Self::All | Self::Discontinuity => self.clone(),
             Self::List(frames) => {
                 Self::List(frames.iter().copied().filter(|frame| rendered.contains(*frame)).collect())
             }
+        }
+    }
+
+    /// Refuses frames that only counting finds.
+    pub(super) fn check_named(&self) -> Result<(), String> {
+        match self {
+            Self::Discontinuity => {
+                Err("discontinuity finds frames for images alone: name frames, or say all".into())
+            }
+            Self::All | Self::List(_) => Ok(()),
         }
     }
 
@@ -148,17 +159,22 @@ impl ExrFrames {
 impl FromStr for ExrFrames {
     type Err = String;
 
-    /// Reads `all`, `none` or frame numbers with commas between.
+    /// Reads `all`, `none`, `discontinuity` or frame numbers with commas between.
     fn from_str(text: &str) -> Result<Self, String> {
         match text {
             "all" => Ok(Self::All),
             "none" => Ok(Self::List(Vec::new())),
+            "discontinuity" => Ok(Self::Discontinuity),
             list => list
                 .split(',')
                 .map(|frame| frame.trim().parse())
                 .collect::<Result<Vec<u32>, _>>()
                 .map(Self::from_frames)
-                .map_err(|_| format!("`{text}` is neither `all`, `none` nor frame numbers such as 300,580")),
+                .map_err(|_| {
+                    format!(
+                        "`{text}` is neither `all`, `none`, `discontinuity` nor frame numbers such as 300,580"
+                    )
+                }),
         }
     }
 }
@@ -167,6 +183,7 @@ impl Serialize for ExrFrames {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::All => serializer.serialize_str("all"),
+            Self::Discontinuity => serializer.serialize_str("discontinuity"),
             Self::List(frames) => frames.serialize(serializer),
         }
     }
@@ -184,7 +201,7 @@ impl<'de> Visitor<'de> for ExrVisitor {
     type Value = ExrFrames;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a list of frame numbers, \"all\" or \"none\"")
+        f.write_str("a list of frame numbers, \"all\", \"none\" or \"discontinuity\"")
     }
 
     fn visit_str<E: de::Error>(self, text: &str) -> Result<ExrFrames, E> {

@@ -92,6 +92,8 @@ pub enum ExrFrames {
     List(Vec<u32>),
     /// Every rendered one.
     All,
+    /// The one of least and the one of most depth discontinuity, which counting finds.
+    Discontinuity,
 }
 
 /// How an EXR image holds several views.

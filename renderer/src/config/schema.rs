@@ -72,12 +72,16 @@ pub(super) fn frames(_: &mut SchemaGenerator) -> Schema {
 }
 
 pub(super) fn exr(_: &mut SchemaGenerator) -> Schema {
-    json_schema!({
-        "anyOf": [
-            { "type": "array", "items": { "type": "integer", "minimum": 0 } },
-            { "enum": ["all", "none", null] }
-        ]
-    })
+    frames_of(json_schema!({ "enum": ["all", "none", "discontinuity", null] }))
+}
+
+pub(super) fn trace(_: &mut SchemaGenerator) -> Schema {
+    frames_of(json_schema!({ "enum": ["all", "none", null] }))
+}
+
+/// A list of frame numbers, or a word for some.
+fn frames_of(words: Schema) -> Schema {
+    json_schema!({ "anyOf": [{ "type": "array", "items": { "type": "integer", "minimum": 0 } }, words] })
 }
 
 /// A name, or a list of different names.

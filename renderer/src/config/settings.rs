@@ -174,9 +174,10 @@ settings! {
         arg(long, value_name = "N")
         schemars(range(min = 2))
     }
-    /// Frames whose EXR and PNG images are written: numbers with commas between, `all` or `none`.
+    /// Frames whose EXR and PNG images are written: numbers with commas between, `all`, `none`, or `discontinuity` (the flag
+    /// alone): that of least and that of most depth discontinuity, which are found and told.
     exr: ExrFrames = ExrFrames::List(Vec::new()), Measures {
-        arg(long, value_name = "LIST|all|none")
+        arg(long, value_name = "LIST|all|none|discontinuity", num_args = 0..=1, default_missing_value = "discontinuity")
         serde(default)
         schemars(schema_with = "schema::exr")
     }
@@ -189,7 +190,8 @@ settings! {
     trace: ExrFrames = ExrFrames::List(Vec::new()), Measures {
         arg(long, value_name = "LIST|all|none", num_args = 0..=1, default_missing_value = "all")
         serde(default)
-        schemars(schema_with = "schema::exr")
+        schemars(schema_with = "schema::trace")
+        check(ExrFrames::check_named)
     }
     /// How a light fades with distance: phy, red, smo, phy_red_1, phy_red_2, phy_smo_1, phy_smo_2, lin or stp.
     attenuation: Attenuation = Attenuation::PhyRed2, Counts {

@@ -1,11 +1,11 @@
-//! CPU twins of the GPU passes that build lists: plain, readable, in f64, with the passes' stems.
+//! CPU twins of the GPU passes that build lists, and of what looks at depth: plain, readable, in f64, with the passes' stems.
 //!
 //! ```text
 //! depth image ─mark─> fragments per cluster ─compact─> visible clusters ─assign─> light lists
 //!                                          (scan: the prefix sums inside compact and assign)
 //!             └─bounds─> what they take of their cells ─assign_measured─> light lists
+//!             └─depth_steps─> how much depth jumps
 //! boxes of instances ─cull─> what is drawn
-//! grid ─build_boxes─> boxes around cells
 //! ```
 //!
 //! Assignment by other ways than brute force has twins of each of its steps, which take what the step before left on the
@@ -24,10 +24,10 @@ mod assign;
 mod attenuation;
 mod bounds;
 mod brdf;
-mod build_boxes;
 mod compact;
 mod cull;
 mod cull_lights;
+mod depth_steps;
 mod hierarchy;
 mod lists;
 mod mark;
@@ -38,10 +38,10 @@ pub use assign::{LightLists, assign, assign_measured};
 pub use attenuation::attenuation;
 pub use bounds::ClusterBounds;
 pub use brdf::{Surface, reflected};
-pub use build_boxes::build_boxes;
 pub use compact::{Compacted, NOT_VISIBLE, compact};
 pub use cull::{Seen, cull};
 pub use cull_lights::{Blocks, Candidate, CellRange, CulledLights, cull_lights, mark_blocks};
+pub use depth_steps::{depth_steps, log2_parts};
 pub use hierarchy::{Descent, Key, Node, Tree, build_nodes, descend, keys, sorted};
 pub use lists::{FoundLists, read_masks, sort_lists};
 pub use mark::{DepthImage, Marks, mark};

@@ -7,7 +7,7 @@ use crate::gpu_interface::{ClusteringState, PixelData};
 use crate::lights::FrameLights;
 use crate::measure::{ClusterLists, FrameCounts, ViewPixels};
 use crate::pass::Recorder;
-use crate::passes::{Frame, mark, pixel_maps, readback, seen, shade};
+use crate::passes::{Frame, depth_steps, mark, pixel_maps, readback, seen, shade};
 use crate::vk::{Buffer, Memory};
 use ash::vk;
 use half::f16;
@@ -59,6 +59,7 @@ pub fn look_at_frame(
         if has_lists {
             (0..frame.clusterings.len()).for_each(|c| mark::count_fragments(r, frame, c));
         }
+        depth_steps::record(r, frame);
         for (view, buffer) in images.iter().enumerate() {
             pixel_maps::record(r, frame, view, buffer);
         }

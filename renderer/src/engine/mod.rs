@@ -29,14 +29,14 @@ pub use plan::{FramePlan, plan_frames};
 pub use session::{Session, shader_library};
 
 use crate::assign::{Assigner, ClusterBounds, Clusters, Marking};
-use crate::buffers::{BufferName, ClusteringSizes};
+use crate::buffers::{BufferName, ClusteringSizes, Copies};
 use crate::clustering::{Clustering, FRAME_SLOTS, SharedBuffer, make_buffer};
 use crate::config::{Config, Scopes};
 use crate::culling::Culling;
 use crate::gpu_interface::{ClusteringState, LightData};
 use crate::layouts::Pipeline;
 use crate::lights::FrameLights;
-use crate::measure::GrowthEvent;
+use crate::measure::{ClusteringCounts, FrameCounts, GrowthEvent, StructureMemory};
 use crate::methods::{GridBox, Method};
 use crate::pass::{Recorder, ScopeTree, Timed};
 use crate::passes::{Draws, Frame};
@@ -156,6 +156,14 @@ impl Engine {
         clusterings * chosen.sizes(run, largest, mode).bytes(slots) + lights
     }
 
+    /// What each structure takes, and what frames need of it by their counts.
+    pub fn memory(&self, counts: &[FrameCounts]) -> Vec<StructureMemory> {
+        let copies = Copies { clusterings: self.clusterings.len() as u64, slots: FRAME_SLOTS as u64 };
+        let frames: Vec<&[ClusteringCounts]> =
+            counts.iter().map(|frame| frame.clusterings.as_slice()).collect();
+        self.sizes.memory(copies, &frames)
+    }
+
     /// Cells of a clustering's grid along each axis, in the frame written last.
     pub fn dimensions(&self, clustering: usize) -> [u32; 3] {
         self.clusterings[clustering].dimensions
@@ -215,7 +223,6 @@ impl Engine {
             frame::record(r, frame, &method);
             (extend.1)(r, frame);
         });
-        self.clusterings.iter_mut().for_each(|clustering| clustering.builds_boxes = false);
         session.frame_slots[slot].submit()
     }
 

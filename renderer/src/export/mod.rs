@@ -4,14 +4,16 @@
 //! ```text
 //! DIR... ──> runs, checked ──┬─> columns: the run (axes of the sweep, options, device) ──┐
 //!                            ├─> frames.csv: counters, minima over the temporal runs ────┼──> FILE.csv
-//!                            └─> timings.csv, with every stage a row ────────────────────┘
+//!                            ├─> timings.csv, with every stage a row ────────────────────┤
+//!                            └─> memory.csv, a row a structure ──────────────────────────┘
 //! ```
 
 mod columns;
 
 use crate::Result;
 use crate::output::{
-    FrameRow, Older, Row, TimingRow, check_run, each_row, prepare_file, saved_frames, stage_kind, write_whole,
+    FrameRow, MemoryRow, Older, Row, TimingRow, all_rows, check_run, prepare_file, saved_memory, stage_kind,
+    write_whole,
 };
 use crate::report::{Found, find};
 use serde::Serialize;
@@ -28,6 +30,8 @@ pub enum Rows {
     Frames,
     /// A stage of a frame of a temporal run: its times, and the frame's counters.
     Stages,
+    /// A structure on the device: what it takes.
+    Memory,
 }
 
 /// What was written.
@@ -100,43 +104,49 @@ fn header(rows: Rows) -> Vec<String> {
             let counters = FrameRow::default().counters().map(|(name, _)| name).collect();
             [TimingRow::COLUMNS.to_vec(), vec!["stage_kind"], counters].concat()
         }
+        Rows::Memory => MemoryRow::COLUMNS.to_vec(),
     };
     columns::names(&measured).into_iter().chain(measured.iter().map(|name| (*name).to_owned())).collect()
 }
 
-/// What a run measured.
-struct Tables {
-    frames: Vec<FrameRow>,
-    stages: Option<Vec<TimingRow>>,
+/// What of a run's tables is written.
+enum Tables {
+    Frames(Vec<FrameRow>),
+    Stages(Vec<FrameRow>, Vec<TimingRow>),
+    Memory(Vec<MemoryRow>),
 }
 
 impl Tables {
     fn read(directory: &Path, rows: Rows) -> Result<Self> {
         check_run(directory)?;
-        let frames = saved_frames(directory)?;
-        let mut stages = vec![];
-        if rows == Rows::Stages {
-            each_row(directory, |_, row| {
-                stages.push(row);
-                Ok(())
-            })?;
-        }
-        Ok(Self { frames, stages: (rows == Rows::Stages).then_some(stages) })
+        Ok(match rows {
+            Rows::Frames => Self::Frames(all_rows(directory)?),
+            Rows::Stages => Self::Stages(all_rows(directory)?, all_rows(directory)?),
+            Rows::Memory => Self::Memory(saved_memory(directory)?),
+        })
     }
 
     /// Writes the rows, each behind what they share, and says how many there are.
     fn write(&self, csv: &mut csv::Writer<impl Write>, shared: &[String]) -> io::Result<usize> {
-        let Some(stages) = &self.stages else {
-            self.frames.iter().try_for_each(|row| csv.serialize((shared, row)))?;
-            return Ok(self.frames.len());
-        };
-        let counters = |row: &FrameRow| row.counters().map(|(_, count)| count).collect::<Vec<u64>>();
-        let counters: BTreeMap<u32, Vec<u64>> =
-            self.frames.iter().map(|row| (row.frame, counters(row))).collect();
-        stages.iter().try_for_each(|row| {
-            csv.serialize((shared, row, stage_kind(&row.stage), &counters[&row.frame]))
-        })?;
-        Ok(stages.len())
+        match self {
+            Self::Frames(frames) => {
+                frames.iter().try_for_each(|row| csv.serialize((shared, row)))?;
+                Ok(frames.len())
+            }
+            Self::Stages(frames, stages) => {
+                let counters = |row: &FrameRow| row.counters().map(|(_, count)| count).collect::<Vec<u64>>();
+                let counters: BTreeMap<u32, Vec<u64>> =
+                    frames.iter().map(|row| (row.frame, counters(row))).collect();
+                stages.iter().try_for_each(|row| {
+                    csv.serialize((shared, row, stage_kind(&row.stage), &counters[&row.frame]))
+                })?;
+                Ok(stages.len())
+            }
+            Self::Memory(structures) => {
+                structures.iter().try_for_each(|row| csv.serialize((shared, row)))?;
+                Ok(structures.len())
+            }
+        }
     }
 }
 
@@ -155,11 +165,19 @@ mod tests {
 
     #[test]
     fn every_axis_and_everything_measured_is_a_column_once() {
-        for (rows, measured) in [(Rows::Frames, FrameRow::COLUMNS), (Rows::Stages, TimingRow::COLUMNS)] {
+        let tables = [
+            (Rows::Frames, FrameRow::COLUMNS),
+            (Rows::Stages, TimingRow::COLUMNS),
+            (Rows::Memory, MemoryRow::COLUMNS),
+        ];
+        for (rows, measured) in tables {
             let header = header(rows);
             let once: BTreeSet<&str> = header.iter().map(String::as_str).collect();
             assert_eq!(once.len(), header.len(), "{header:?}");
-            let counters: Vec<&str> = FrameRow::default().counters().map(|(name, _)| name).collect();
+            let counters: Vec<&str> = match rows {
+                Rows::Frames | Rows::Stages => FrameRow::default().counters().map(|(name, _)| name).collect(),
+                Rows::Memory => vec![],
+            };
             assert!(measured.iter().copied().chain(counters).all(|name| once.contains(name)));
             for Axis { column, .. } in &AXES {
                 let told = format!("{column}_axis");

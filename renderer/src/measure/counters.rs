@@ -1,5 +1,8 @@
 //! What shaders count.
 
+/// Parts of an octave, a factor of 2, in which [`DeviceCounts::depth_steps`] is told.
+pub const OCTAVE_PARTS: u32 = 1 << 16;
+
 /// Declares the counters, each a line.
 macro_rules! counters {
     ($($(#[$doc:meta])* $name:ident,)*) => {
@@ -42,6 +45,10 @@ counters! {
     intersection_tests,
     /// Fragments that were shaded and are hidden in the end, with overdraw.
     fragments_hidden,
+    /// Octaves by which the distances of neighbouring pixels of the first view differ, all together, in [`OCTAVE_PARTS`].
+    depth_steps,
+    /// Pairs of neighbouring pixels that these are of: both show something.
+    depth_pairs,
 }
 
 #[cfg(test)]

@@ -3,14 +3,18 @@
 
 mod capacity;
 mod counters;
+mod extremes;
 mod lists;
+mod memory;
 mod record;
 mod timing;
 mod trace;
 
 pub use capacity::{Capacities, GrowthEvent};
-pub use counters::DeviceCounts;
+pub use counters::{DeviceCounts, OCTAVE_PARTS};
+pub use extremes::Extremes;
 pub use lists::ClusterLists;
+pub use memory::{Purpose, StructureMemory};
 pub use record::{ClusterRecord, ClusteringCounts, FrameCounts, FrameTimes, StageTime, ViewPixels};
 pub use timing::{Disturbance, Order, Precision, Timing};
 pub use trace::{FrameTrace, StageSpan};

@@ -1,6 +1,7 @@
 //! The records that passes produce and [`crate::output`] writes.
 
 use super::DeviceCounts;
+use super::counters::OCTAVE_PARTS;
 use crate::{Error, Result};
 use half::f16;
 
@@ -142,6 +143,14 @@ impl FrameCounts {
         self.sum(|clustering| clustering.visible_clusters_dropped)
     }
 
+    /// How much the depth of the first view jumps from pixel to pixel: the mean over pairs of neighbours of how many octaves their
+    /// distances differ by, millionths, rounded down. A million where each pixel is twice as far as the next; 0 without pairs.
+    pub fn depth_discontinuity(&self) -> u64 {
+        let DeviceCounts { depth_steps, depth_pairs, .. } = self.counters;
+        let parts = u128::from(depth_pairs) * u128::from(OCTAVE_PARTS);
+        (u128::from(depth_steps) * 1_000_000).checked_div(parts).unwrap_or(0) as u64
+    }
+
     /// Refuses what must never happen, so that no result of such a frame is kept.
     ///
     /// # Errors
@@ -175,6 +184,16 @@ impl FrameCounts {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn discontinuity_is_the_mean_step_in_millionths_of_an_octave() {
+        let of = |depth_steps, depth_pairs| {
+            let counters = DeviceCounts { depth_steps, depth_pairs, ..DeviceCounts::default() };
+            FrameCounts { counters, ..FrameCounts::default() }.depth_discontinuity()
+        };
+        assert_eq!([of(3 << 16, 3), of(1 << 15, 4), of(0, 5), of(0, 0)], [1_000_000, 125_000, 0, 0]);
+        assert_eq!(of(1 << 60, 1 << 40), 16_000_000, "no image is too large");
+    }
 
     #[test]
     fn frames_that_lack_something_are_refused() {

@@ -2,11 +2,14 @@
 //! speak of.
 
 use super::manifest::Manifest;
-use super::rows::{ClusteringRow, FrameRow, HistogramRow, KINDS, LIGHTS_PER_FRAGMENT, Row, TimingRow};
-use super::stages::is_everyones;
+use super::rows::{
+    ClusteringRow, FrameRow, HistogramRow, KINDS, LIGHTS_PER_FRAGMENT, MemoryRow, Row, TimingRow,
+};
+use super::saved::has_memory;
 use super::strict::{Line, each_row, refuse, shown};
 use crate::Result;
-use std::collections::BTreeMap;
+use crate::measure::Purpose;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 #[cfg(test)]
@@ -35,6 +38,7 @@ pub fn check_run(directory: &Path) -> Result<()> {
     let frames = check_frames(directory, manifest.frame_count)?;
     check_clusterings(directory, &frames)?;
     check_histograms(directory, &frames)?;
+    check_memory(directory, manifest.memory_bytes)?;
     check_timings(directory, &frames, manifest.temporal_runs())
 }
 
@@ -131,8 +135,38 @@ fn kind_of(line: &Line<'_>, row: &HistogramRow) -> Result<usize> {
     kind.ok_or_else(|| line.refuse(format!("`{}` is no kind of histogram", shown(&row.kind))))
 }
 
-/// Every temporal run of every frame has the stages of the first, but for those that follow changes alone; a device without
-/// timestamps gave none at all.
+/// No frame needs more of a structure than was allocated, and all together were allocated what is announced; earlier versions
+/// announced nothing.
+fn check_memory(directory: &Path, announced: Option<u64>) -> Result<()> {
+    if announced.is_none() && !has_memory(directory) {
+        return Ok(());
+    }
+    let (mut seen, mut sum) = (BTreeSet::new(), 0_u64);
+    each_row(directory, |line, row: MemoryRow| {
+        let MemoryRow { structure, purpose, allocated, used, most } = row;
+        if Purpose::named(&purpose).is_none() {
+            return Err(line.refuse(format!("`{}` is no purpose", shown(&purpose))));
+        }
+        if used > most || most > allocated {
+            let problem = format!("{used} bytes used, {most} at most, do not fit {allocated} allocated");
+            return Err(line.refuse(problem));
+        }
+        sum = sum.saturating_add(allocated);
+        match seen.insert(structure.clone()) {
+            true => Ok(()),
+            false => Err(line.refuse(format!("structure {} comes twice", shown(&structure)))),
+        }
+    })?;
+    match announced.unwrap_or(sum) {
+        announced if announced == sum => Ok(()),
+        announced => {
+            let problem = format!("allocated bytes add up to {sum}, in run.json to {announced}");
+            Err(refuse_table::<MemoryRow>(directory, problem))
+        }
+    }
+}
+
+/// Every temporal run of every frame has the stages of the first; a device without timestamps gave none at all.
 fn check_timings(directory: &Path, frames: &[FrameRow], runs: u32) -> Result<()> {
     let mut stages: BTreeMap<(u32, u32), Vec<String>> = BTreeMap::new();
     each_row(directory, |line, row: TimingRow| {
@@ -148,10 +182,7 @@ fn check_timings(directory: &Path, frames: &[FrameRow], runs: u32) -> Result<()>
         Ok(())
     })?;
     let refuse = |problem: String| Err(refuse_table::<TimingRow>(directory, problem));
-    let lasting = |stages: &Vec<String>| -> Vec<String> {
-        stages.iter().filter(|stage| is_everyones(stage)).cloned().collect()
-    };
-    let Some(first) = stages.values().next().map(lasting) else {
+    let Some(first) = stages.values().next() else {
         return match frames.iter().any(FrameRow::is_timed) {
             true => refuse("holds no times, and frames.csv does".into()),
             false => Ok(()),
@@ -161,7 +192,7 @@ fn check_timings(directory: &Path, frames: &[FrameRow], runs: u32) -> Result<()>
         return refuse(format!("times frame {}, for which frames.csv has no gpu_ms_frame", row.frame));
     }
     for place in (0..runs).flat_map(|run| frames.iter().map(move |row| (run, row.frame))) {
-        if stages.get(&place).map(lasting).as_ref() != Some(&first) {
+        if stages.get(&place) != Some(first) {
             let (run, frame) = place;
             return refuse(format!("the stages of run {run}, frame {frame} are not all there"));
         }

@@ -45,15 +45,28 @@ pub fn cubehelix(fraction: f64) -> [u8; 3] {
         .map(|(along, across)| to_byte(lightness + amplitude * (along * cos + across * sin)))
 }
 
+/// Most lights that [`heat`] tells apart.
+const HOTTEST: u32 = 150;
+
+/// The colour of so many lights as M. Enhuber's thesis has it (*Comparison of Light Assignment Methods*, TU Graz 2019, figure
+/// 4.10): from blue for none to red for 150, evenly, and green for more.
+pub fn heat(lights: u32) -> [u8; 3] {
+    if lights > HOTTEST {
+        return [0, 255, 0];
+    }
+    let part = f64::from(lights) / f64::from(HOTTEST);
+    [to_byte(part), 0, to_byte(1.0 - part)]
+}
+
+/// Half of each of two colours, as a display shows them.
+pub(super) fn blend(a: [u8; 3], b: [u8; 3]) -> [u8; 3] {
+    std::array::from_fn(|channel| a[channel].midpoint(b[channel]))
+}
+
 /// One of three colours that colour-blind readers tell apart (Okabe and Ito 2008: orange, sky blue, bluish green),
 /// by the sum of the cluster's indices modulo 3: neighbours along every axis differ.
 pub fn cluster_color([x, y, z]: [u32; 3]) -> [u8; 3] {
     [[230, 159, 0], [86, 180, 233], [0, 158, 115]][((x + y + z) % 3) as usize]
-}
-
-/// The slice of a cluster as colour: the three low bits of its index as red, green and blue (Ortiz).
-pub fn slice_color([_, _, slice]: [u32; 3]) -> [u8; 3] {
-    [0, 1, 2].map(|bit| if slice >> bit & 1 == 1 { 255 } else { 0 })
 }
 
 fn to_byte(fraction: f64) -> u8 {
@@ -93,13 +106,10 @@ mod tests {
     }
 
     #[test]
-    fn slices_are_the_three_low_bits_of_their_index() {
-        assert_eq!(slice_color([7, 7, 0]), [0, 0, 0]);
-        assert_eq!(
-            [1, 2, 4].map(|slice| slice_color([0, 0, slice])),
-            [[255, 0, 0], [0, 255, 0], [0, 0, 255]]
-        );
-        assert_eq!(slice_color([0, 0, 8 + 6]), [0, 255, 255]);
+    fn heat_goes_from_blue_to_red_and_is_green_beyond() {
+        assert_eq!([0, 50, 150].map(heat), [[0, 0, 255], [85, 0, 170], [255, 0, 0]]);
+        assert_eq!([151, u32::MAX].map(heat), [[0, 255, 0]; 2]);
+        assert_eq!(blend([0, 255, 100], [101, 255, 0]), [50, 255, 50]);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::strict::{refuse, shown};
 use crate::config::Config;
 use crate::lights::{Generated, GeneratorKind, Lighting};
 use crate::machine::{Conditions, Machine};
-use crate::measure::{Capacities, GrowthEvent, Timing};
+use crate::measure::{Capacities, Extremes, GrowthEvent, Timing};
 use crate::{Error, Result};
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -72,9 +72,15 @@ pub struct Manifest {
     /// Buffer capacities at the end of the run.
     #[serde(default)]
     pub capacities: Capacities,
+    /// What all structures of `memory.csv` were allocated, bytes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub memory_bytes: Option<u64>,
     /// Each time that buffers grew.
     #[serde(default)]
     pub growth: Vec<GrowthEvent>,
+    /// The frames of least and of most depth discontinuity, where they were found for pictures.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub discontinuity: Option<Extremes>,
     /// When the run started, RFC 3339, UTC.
     #[serde(default)]
     pub started: String,

@@ -1,7 +1,7 @@
 //! PNG previews of one frame, all views side by side.
 
 use super::atomic::write_whole;
-use super::color::{BACKGROUND, cluster_color, cubehelix, slice_color, tone_map};
+use super::color::{BACKGROUND, blend, cluster_color, cubehelix, heat, tone_map};
 use crate::Result;
 use crate::geometry::cell_at;
 use crate::measure::ViewPixels;
@@ -9,8 +9,8 @@ use image::{ImageFormat, Rgb, RgbImage};
 use std::io;
 use std::path::Path;
 
-/// Writes `stem.png` (tone-mapped), `stem_lights.png` (heat map, see [`light_preview`]), `stem_clusters.png` and, of grids that have
-/// several slices, `stem_slices.png`.
+/// Writes `stem.png` (tone-mapped), `stem_lights.png` (see [`light_preview`]), `stem_heat.png` (see [`heat_preview`]) and
+/// `stem_clusters.png`.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -20,14 +20,12 @@ pub fn write_previews(
     views: &[ViewPixels],
     most_lights: Option<u32>,
 ) -> Result<()> {
-    let mut previews = vec![
+    let previews = [
         ("", image_preview(views)),
         ("_lights", light_preview(views, most_lights)),
-        ("_clusters", cluster_preview(views, cluster_color)),
+        ("_heat", heat_preview(views)),
+        ("_clusters", cluster_preview(views)),
     ];
-    if views.iter().any(|view| view.dimensions[2] > 1) {
-        previews.push(("_slices", cluster_preview(views, slice_color)));
-    }
     for (suffix, preview) in previews {
         write_png(&directory.join(format!("{stem}{suffix}.png")), &preview)?;
     }
@@ -49,9 +47,21 @@ pub fn write_png(path: &Path, image: &RgbImage) -> Result<()> {
 
 /// The image as a display shows it.
 pub fn image_preview(views: &[ViewPixels]) -> RgbImage {
+    side_by_side(views, displayed)
+}
+
+/// A pixel's colour as a display shows it.
+fn displayed(view: &ViewPixels, pixel: usize) -> [u8; 3] {
+    let [r, g, b, _] = view.color[pixel];
+    tone_map([r, g, b].map(|channel| channel.to_f32()))
+}
+
+/// The image blended, half and half, with the lights of each pixel's group as colour, by the same scale in every frame of every
+/// method: blue for none to red for 150, green for more (see [`heat`]). Where nothing was hit, the image alone.
+pub fn heat_preview(views: &[ViewPixels]) -> RgbImage {
     side_by_side(views, |view, pixel| {
-        let [r, g, b, _] = view.color[pixel];
-        tone_map([r, g, b].map(|channel| channel.to_f32()))
+        let image = displayed(view, pixel);
+        if view.depth[pixel].is_infinite() { image } else { blend(image, heat(view.light_count[pixel])) }
     })
 }
 
@@ -69,11 +79,11 @@ pub fn light_preview(views: &[ViewPixels], most_lights: Option<u32>) -> RgbImage
     })
 }
 
-/// Clusters as colour, dark where there is none.
-fn cluster_preview(views: &[ViewPixels], color: fn([u32; 3]) -> [u8; 3]) -> RgbImage {
+/// Clusters as colour: the sum of their indices modulo 3, dark where there is none.
+pub fn cluster_preview(views: &[ViewPixels]) -> RgbImage {
     side_by_side(views, |view, pixel| match view.cluster_index[pixel] {
         u32::MAX => BACKGROUND,
-        index => color(cell_at(index, view.dimensions)),
+        index => cluster_color(cell_at(index, view.dimensions)),
     })
 }
 
@@ -110,6 +120,20 @@ mod tests {
     }
 
     #[test]
+    fn heat_is_half_of_what_is_hit_whatever_the_frame() {
+        let mut pixels = view("mono", 4, 1);
+        pixels.light_count = vec![900, 0, 150, 151];
+        let image = heat_preview(&[pixels.clone()]);
+        let seen = image_preview(&[pixels]);
+        for (pixel, color) in [[0, 0, 255], [255, 0, 0], [0, 255, 0]].into_iter().enumerate() {
+            let at = pixel as u32 + 1;
+            assert_eq!(image.get_pixel(at, 0).0, blend(seen.get_pixel(at, 0).0, color), "pixel {at}");
+        }
+        assert_eq!(image.get_pixel(0, 0), seen.get_pixel(0, 0), "nothing was hit there");
+        assert_ne!(image.get_pixel(1, 0), seen.get_pixel(1, 0));
+    }
+
+    #[test]
     fn a_frame_without_lights_is_black_not_undefined() {
         let mut pixels = view("mono", 2, 1);
         pixels.light_count = vec![0, 0];
@@ -128,20 +152,10 @@ mod tests {
         assert_eq!(clusters.get_pixel(3, 0).0, [24, 24, 24]);
         assert_eq!(clusters.get_pixel(1, 0).0, cluster_color([1, 0, 0]));
         assert_eq!(clusters.get_pixel(3, 1).0, cluster_color([1, 1, 0]));
-        assert!(!dir.path().join("000300_slices.png").exists(), "a grid of one slice");
         let [r, g, b, _] = left.color[5].map(|channel| channel.to_f32());
         assert_eq!(read("000300.png").get_pixel(2, 1).0, tone_map([r, g, b]));
-        assert_eq!(read("000300_lights.png").dimensions(), (6, 2));
-    }
-
-    #[test]
-    fn slices_are_shown_where_there_are_several() {
-        let dir = tempfile::tempdir().unwrap();
-        let pixels = ViewPixels { dimensions: [2, 1, 3], ..view("mono", 3, 2) };
-        write_previews(dir.path(), "000007", &[pixels], None).unwrap();
-        let slices = image::open(dir.path().join("000007_slices.png")).unwrap().to_rgb8();
-        let colors: Vec<[u8; 3]> = slices.pixels().map(|pixel| pixel.0).collect();
-        let [red, green] = [[255, 0, 0], [0, 255, 0]];
-        assert_eq!(colors, [[24, 24, 24], [0; 3], red, red, green, green]);
+        for other in ["lights", "heat"] {
+            assert_eq!(read(&format!("000300_{other}.png")).dimensions(), (6, 2));
+        }
     }
 }

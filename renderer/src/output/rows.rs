@@ -1,7 +1,7 @@
 //! The rows of a run's CSV tables, each declared once: header, writer and readers follow from the type.
 
 use super::stages::{self, StageMinima};
-use crate::measure::FrameCounts;
+use crate::measure::{FrameCounts, StructureMemory};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -79,7 +79,7 @@ macro_rules! frame_row {
         row! {
             /// A frame: the counters of the atemporal run, and GPU milliseconds, of each stage the minimum over the
             /// temporal runs; `None` where nothing was timed.
-            "frames.csv" FrameRow added fragments_hidden {
+            "frames.csv" FrameRow added fragments_hidden depth_discontinuity {
                 /// Frame number in the recording.
                 frame: u32,
                 /// Its time in the recording, seconds.
@@ -153,6 +153,9 @@ frame_row! {
         light_indices_dropped: u64 = FrameCounts::light_indices_dropped;
         /// Visible clusters that did not fit: none.
         visible_clusters_dropped: u64 = FrameCounts::visible_clusters_dropped;
+        /// Mean over neighbouring pixels of the first view of the octaves by which their distances differ, millionths.
+        #[serde(default)]
+        depth_discontinuity: u64 = FrameCounts::depth_discontinuity;
     }
     times {
         /// The whole frame.
@@ -240,6 +243,30 @@ row! {
         /// CPU time spent recording it, milliseconds.
         #[serde(serialize_with = "cell::ms")]
         cpu_ms: f64,
+    }
+}
+
+row! {
+    /// What one structure takes of the device's memory in the temporal runs, over all clusterings.
+    "memory.csv" MemoryRow {
+        /// Name of the structure.
+        structure: String,
+        /// What it is for: the name of a [`Purpose`](crate::measure::Purpose).
+        purpose: String,
+        /// Allocated at the end, bytes.
+        allocated: u64,
+        /// What a frame needs of that, mean over frames, bytes.
+        used: u64,
+        /// What the frame that needs most needs, bytes.
+        most: u64,
+    }
+}
+
+impl MemoryRow {
+    /// The row of a structure.
+    pub fn new(memory: &StructureMemory) -> Self {
+        let StructureMemory { structure, purpose, allocated, used, most } = *memory;
+        Self { structure: structure.into(), purpose: purpose.to_string(), allocated, used, most }
     }
 }
 

@@ -4,13 +4,13 @@ use super::atomic::{StagedDirectory, write_whole};
 use super::image_exr::write_exr;
 use super::manifest::{MANIFEST, Manifest};
 use super::preview::{write_png, write_previews};
-use super::rows::Row;
+use super::rows::{MemoryRow, Row};
 use super::stages::StageMinima;
 use super::summary::Summary;
 use super::{tables, trace};
 use crate::config::{Assign, Config, ExrLayout, Labels, Test, run_name};
 use crate::lights::LightsFrom;
-use crate::measure::{FrameCounts, FrameTimes, FrameTrace, ViewPixels};
+use crate::measure::{FrameCounts, FrameTimes, FrameTrace, StructureMemory, ViewPixels};
 use crate::methods::Method;
 use crate::{Error, Result};
 use image::RgbImage;
@@ -113,6 +113,14 @@ impl RunWriter {
         self.write("trace.json", |file| trace::write_trace(file, frames))
     }
 
+    /// Writes `memory.csv`.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_memory(&self, memory: &[StructureMemory]) -> Result<()> {
+        self.write_table(memory.iter().map(MemoryRow::new))
+    }
+
     /// Writes the tables that hold counts alone. What they need of `counts` and [`Self::finish`] does not, the records of
     /// clusters and the bins of fragments, may be let go then.
     ///
@@ -123,7 +131,7 @@ impl RunWriter {
         self.write_table(tables::histograms(counts))
     }
 
-    /// After [`Self::write_counted`], writes the tables with times and the manifest, and puts the directory in its place, over an older run's.
+    /// After [`Self::write_counted`] and [`Self::write_memory`], writes the tables with times and the manifest, and puts the directory in its place, over an older run's.
     ///
     /// # Errors
     /// A file cannot be written; nothing is left of the new directory then.

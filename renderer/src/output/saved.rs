@@ -2,9 +2,9 @@
 
 use super::check::check_run;
 use super::manifest::{MANIFEST, Manifest};
-use super::rows::FrameRow;
+use super::rows::{FrameRow, MemoryRow, Row};
 use super::run_times::{MeasuredTimes, saved_times};
-use super::strict::each_row;
+use super::strict::all_rows;
 use super::summary::Values;
 use crate::{Error, Result};
 use serde::Serialize;
@@ -107,12 +107,20 @@ pub fn saved_fingerprint(directory: &Path) -> Option<String> {
 /// # Errors
 /// The table is damaged.
 pub fn saved_frames(directory: &Path) -> Result<Vec<FrameRow>> {
-    let mut rows = vec![];
-    each_row(directory, |_, row| {
-        rows.push(row);
-        Ok(())
-    })?;
-    Ok(rows)
+    all_rows(directory)
+}
+
+/// Whether the run in `directory` tells what structures take, which those of earlier versions do not.
+pub(super) fn has_memory(directory: &Path) -> bool {
+    directory.join(MemoryRow::FILE).is_file()
+}
+
+/// The rows of `memory.csv` of the run in `directory`; none of one that does not tell.
+///
+/// # Errors
+/// The table is damaged.
+pub fn saved_memory(directory: &Path) -> Result<Vec<MemoryRow>> {
+    if has_memory(directory) { all_rows(directory) } else { Ok(vec![]) }
 }
 
 /// How many frames the run in `directory` has, its means over them, and the noise of its times.

@@ -40,6 +40,19 @@ pub fn each_row<R: Row>(directory: &Path, mut take: impl FnMut(&Line<'_>, R) -> 
     Ok(())
 }
 
+/// Every row of a table of the run in `directory`.
+///
+/// # Errors
+/// As [`each_row`].
+pub fn all_rows<R: Row>(directory: &Path) -> Result<Vec<R>> {
+    let mut rows = vec![];
+    each_row(directory, |_, row| {
+        rows.push(row);
+        Ok(())
+    })?;
+    Ok(rows)
+}
+
 /// The bytes of a table, the last of which ends a line.
 fn read_whole(path: &Path) -> Result<Vec<u8>> {
     let bytes = fs::read(path).map_err(|error| match error.kind() {

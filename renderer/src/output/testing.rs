@@ -5,8 +5,8 @@ use crate::config::Config;
 use crate::lights::Lighting;
 use crate::machine::{Conditions, CpuTicks, Device, Heap, Host, Machine};
 use crate::measure::{
-    Capacities, ClusterRecord, ClusteringCounts, DeviceCounts, FrameCounts, FrameTimes, GrowthEvent,
-    StageTime, ViewPixels,
+    Capacities, ClusterRecord, ClusteringCounts, DeviceCounts, Extremes, FrameCounts, FrameTimes,
+    GrowthEvent, Purpose, StageTime, StructureMemory, ViewPixels,
 };
 use half::f16;
 
@@ -44,6 +44,7 @@ pub(super) fn manifest() -> Manifest {
         doubts: vec!["others were at work".into()],
         timing: None,
         capacities: Capacities { visible_clusters: 1, light_indices: 2 },
+        memory_bytes: Some(memory().iter().map(|structure| structure.allocated).sum()),
         growth: vec![GrowthEvent {
             frame: 40,
             clustering: 0,
@@ -51,6 +52,7 @@ pub(super) fn manifest() -> Manifest {
             from: 1,
             to: 2,
         }],
+        discontinuity: Some(Extremes { least: 40, most: 40 }),
         started: "2026-11-05T09:03:07Z".into(),
         duration_s: 1.5,
     }
@@ -111,6 +113,18 @@ pub(super) fn counts(frame: u32) -> FrameCounts {
         },
         lights_per_fragment: vec![vec![(2, 200), (5, 50)], vec![(0, 7)]],
     }
+}
+
+/// Structures of a run.
+pub(super) fn memory() -> [StructureMemory; 2] {
+    let of = |structure, purpose, [allocated, used, most]: [u64; 3]| StructureMemory {
+        structure,
+        purpose,
+        allocated,
+        used,
+        most,
+    };
+    [of("light_indices", Purpose::Lists, [4096, 36, 40]), of("lights", Purpose::Lights, [320, 320, 320])]
 }
 
 /// A frame of one temporal run in which the frame took `total` milliseconds: a quarter of it clustering, a half

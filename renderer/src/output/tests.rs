@@ -1,4 +1,4 @@
-use super::testing::{counts, manifest, times, view};
+use super::testing::{counts, manifest, memory, times, view};
 use super::*;
 use crate::config::{Assign, Axis, Config, ExrLayout, Labels};
 use crate::lights::Lighting;
@@ -23,16 +23,16 @@ fn frames_csv_has_the_documented_columns_and_the_minimum_over_runs() {
     let text = frames(&[counts(40)], &[times(0, 40, 9.0), times(1, 40, 8.0)]);
     let expected = "frame,time_s,views,clusterings,clusters,visible_clusters,light_indices,lighting_computations,\
         needed_computations,intersection_tests,fragments_shaded,fragments_hidden,fragments_without_cluster,light_indices_dropped,\
-        visible_clusters_dropped,gpu_ms_frame,gpu_ms_cluster,gpu_ms_visibility,gpu_ms_count_lights,\
+        visible_clusters_dropped,depth_discontinuity,gpu_ms_frame,gpu_ms_cluster,gpu_ms_visibility,gpu_ms_count_lights,\
         gpu_ms_assign_lights,gpu_ms_shade\n\
-        40,0.4444444444444444,2,2,2904,4,9,650,600,4000,257,0,0,0,0,8.000000,2.000000,1.000000,0.000000,0.000000,4.000000\n";
+        40,0.4444444444444444,2,2,2904,4,9,650,600,4000,257,0,0,0,0,0,8.000000,2.000000,1.000000,0.000000,0.000000,4.000000\n";
     assert_eq!(text, expected);
 }
 
 #[test]
 fn frames_csv_leaves_times_empty_without_temporal_runs() {
     let text = frames(&[counts(0)], &[]);
-    assert!(text.ends_with("\n0,0,2,2,2904,4,9,650,600,4000,257,0,0,0,0,,,,,,\n"), "{text}");
+    assert!(text.ends_with("\n0,0,2,2,2904,4,9,650,600,4000,257,0,0,0,0,0,,,,,,\n"), "{text}");
 }
 
 #[test]
@@ -68,6 +68,15 @@ fn histograms_csv_has_exact_ascending_bins() {
         40,1,lights_per_cluster,0,1,7\n\
         40,1,fragments_per_cluster,7,1,7\n\
         40,1,lights_per_fragment,0,1,7\n";
+    assert_eq!(text, expected);
+}
+
+#[test]
+fn memory_csv_has_what_structures_take() {
+    let text = csv_text(|out| tables::write(out, memory().iter().map(MemoryRow::new)));
+    let expected = "structure,purpose,allocated,used,most\n\
+        light_indices,lists,4096,36,40\n\
+        lights,lights,320,320,320\n";
     assert_eq!(text, expected);
 }
 
@@ -297,6 +306,7 @@ fn write_run(out: &Path) {
     let writer = RunWriter::create(out, "encl-ortho-4").unwrap();
     writer.write_images(40, &[view("left", 4, 3), view("right", 4, 3)], ExrLayout::Multipart).unwrap();
     writer.write_counted(&[counts(40)]).unwrap();
+    writer.write_memory(&memory()).unwrap();
     writer.finish(&manifest(), &[counts(40)], &[times(0, 40, 8.0)]).unwrap();
 }
 
@@ -314,8 +324,10 @@ fn a_run_directory_is_whole_and_repeats_byte_for_byte() {
         "frames/000040.exr",
         "frames/000040.png",
         "frames/000040_clusters.png",
+        "frames/000040_heat.png",
         "frames/000040_lights.png",
         "histograms.csv",
+        "memory.csv",
         "run.json",
         "timings.csv",
     ];

@@ -4,11 +4,11 @@
 
 pub mod assign;
 pub mod bounds;
-pub mod build_boxes;
 pub mod clay;
 pub mod cull;
 pub mod cull_lights;
 pub mod depth;
+pub mod depth_steps;
 pub mod draws;
 mod handles;
 pub mod hierarchy;

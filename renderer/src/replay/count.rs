@@ -2,9 +2,12 @@
 
 use super::{RunResult, RunSink, Watch, choose};
 use crate::assign::Assigner;
+use crate::config::ExrFrames;
 use crate::engine::{Engine, FramePlan, LargestGrid, Mode, Session, count_frame, plan_frames};
 use crate::inputs::Inputs;
+use crate::lights::LightSource;
 use crate::machine::Conditions;
+use crate::measure::{Extremes, FrameCounts, ViewPixels};
 use crate::output::PlannedRun;
 use crate::{Result, still};
 use std::sync::Arc;
@@ -30,6 +33,11 @@ impl Counted {
     /// How its lists are built.
     pub fn assigner(&self) -> Assigner {
         self.result.assigner
+    }
+
+    /// The frames that were found for its pictures, where counting finds them.
+    pub fn extremes(&self) -> Option<Extremes> {
+        self.result.extremes
     }
 
     /// The largest grid of its frames.
@@ -73,7 +81,9 @@ pub fn prepare(inputs: &Inputs, session: &mut Session, run: &PlannedRun) -> Resu
         traces: vec![],
         assigner: choose::assigner(inputs, session, (run, &plans))?,
         capacities: run.config.capacities(),
+        memory: vec![],
         growth: vec![],
+        extremes: None,
         device: session.context.info.clone(),
         conditions: Conditions::default(),
         timing: None,
@@ -90,26 +100,74 @@ fn count_frames(
     (watch, sink): (&Watch, &mut dyn RunSink),
     counted: &mut Counted,
 ) -> Result<()> {
-    let mut lights = inputs.light_source(&run.lights)?;
-    let names: Vec<String> = inputs.recording.view_names().into_iter().map(str::to_owned).collect();
-    let mut engine = Engine::new(session, &run.config, counted.largest(), counted.mode(true))?;
+    let engine = Engine::new(session, &run.config, counted.largest(), counted.mode(true))?;
+    let mut counting =
+        Counting { inputs, session, run, engine, lights: inputs.light_source(&run.lights)?, sink };
     let Counted { plans, result, .. } = counted;
     for plan in plans.iter() {
         watch.check()?;
-        let view_names = run.config.exr.contains(plan.frame).then_some(names.as_slice());
-        let about = (inputs.recording.time(plan.frame), view_names);
-        let input = (plan, lights.at_frame(plan.frame));
-        let frame = count_frame(&mut engine, session, input, about, &mut |lists| sink.lists(lists))?;
-        result.counts.push(frame.counts);
-        if view_names.is_some() {
-            sink.images(plan.frame, &frame.pixels)?;
-            if run.method.has_lists() {
-                sink.birdseye(plan.frame, &still::birdseye(inputs, session, (run, plan))?)?;
-            }
-        }
+        result.counts.push(counting.frame(plan)?);
         watch.step();
     }
-    result.capacities = engine.capacities();
-    result.growth.append(&mut engine.growth);
+    if run.config.exr == ExrFrames::Discontinuity {
+        result.extremes = Extremes::of(&result.counts);
+    }
+    let extremes = result.extremes;
+    let found = |frame| extremes.is_some_and(|extremes| extremes.contains(frame));
+    for plan in plans.iter().filter(|plan| found(plan.frame)) {
+        watch.check()?;
+        counting.picture(plan)?;
+    }
+    result.capacities = counting.engine.capacities();
+    result.memory = counting.engine.memory(&result.counts);
+    result.growth.append(&mut counting.engine.growth);
     Ok(())
+}
+
+/// A run that is being counted.
+struct Counting<'a> {
+    inputs: &'a Inputs,
+    session: &'a mut Session,
+    run: &'a PlannedRun,
+    engine: Engine,
+    lights: Box<dyn LightSource>,
+    sink: &'a mut dyn RunSink,
+}
+
+impl Counting<'_> {
+    /// Counts a frame; the sink gets its lists, and its pictures where the run names it for them.
+    fn frame(&mut self, plan: &FramePlan) -> Result<FrameCounts> {
+        let pictured = self.run.config.exr.contains(plan.frame);
+        let names = pictured.then(|| self.view_names());
+        let about = (self.inputs.recording.time(plan.frame), names.as_deref());
+        let (input, sink) = ((plan, self.lights.at_frame(plan.frame)), &mut *self.sink);
+        let frame =
+            count_frame(&mut self.engine, self.session, input, about, &mut |lists| sink.lists(lists))?;
+        if pictured {
+            self.deliver(plan, &frame.pixels)?;
+        }
+        Ok(frame.counts)
+    }
+
+    /// Renders a frame that is counted already, for its pictures alone.
+    fn picture(&mut self, plan: &FramePlan) -> Result<()> {
+        let names = self.view_names();
+        let about = (self.inputs.recording.time(plan.frame), Some(names.as_slice()));
+        let input = (plan, self.lights.at_frame(plan.frame));
+        let frame = count_frame(&mut self.engine, self.session, input, about, &mut |_| Ok(()))?;
+        self.deliver(plan, &frame.pixels)
+    }
+
+    fn deliver(&mut self, plan: &FramePlan, pixels: &[ViewPixels]) -> Result<()> {
+        self.sink.images(plan.frame, pixels)?;
+        if self.run.method.has_lists() {
+            let image = still::birdseye(self.inputs, self.session, (self.run, plan))?;
+            self.sink.birdseye(plan.frame, &image)?;
+        }
+        Ok(())
+    }
+
+    fn view_names(&self) -> Vec<String> {
+        self.inputs.recording.view_names().into_iter().map(str::to_owned).collect()
+    }
 }

@@ -27,7 +27,8 @@ use crate::engine::plan_frames;
 use crate::inputs::Inputs;
 use crate::machine::Conditions;
 use crate::measure::{
-    Capacities, ClusterLists, FrameCounts, FrameTimes, FrameTrace, GrowthEvent, Timing, ViewPixels,
+    Capacities, ClusterLists, Extremes, FrameCounts, FrameTimes, FrameTrace, GrowthEvent, StructureMemory,
+    Timing, ViewPixels,
 };
 use crate::output::PlannedRun;
 use crate::recording::Recording;
@@ -98,8 +99,12 @@ pub struct RunResult {
     pub assigner: Assigner,
     /// What the buffers held at the end.
     pub capacities: Capacities,
+    /// What each structure took on the device, and what frames needed of that.
+    pub memory: Vec<StructureMemory>,
     /// Frames that made them grow.
     pub growth: Vec<GrowthEvent>,
+    /// The frames of its pictures, where these are the ones of least and of most depth discontinuity.
+    pub extremes: Option<Extremes>,
     /// The device it ran on.
     pub device: DeviceInfo,
     /// How the machine fared in the temporal runs.

@@ -164,8 +164,7 @@ impl<'s> Timed<'s> {
         let first = (&plans[0], lights.at_frame(plans[0].frame));
         engine.render(session, WARM_UP_SLOT, first, (&mut nothing, &mut nothing))?;
         session.context.check_validation()?;
-        let stages = session.frame_slots[WARM_UP_SLOT].timestamps.spans().len();
-        let frames = plans.iter().map(|plan| plan.frame);
+        let (frames, stages) = (plans.iter().map(|plan| plan.frame), engine.tree.paths().len());
         Ok(Self {
             tracer: Tracer::new(&run.config.trace, frames, run.config.most_runs(), stages),
             seat,
@@ -236,6 +235,7 @@ impl<'s> Timed<'s> {
         result.times = std::mem::take(&mut self.runs).concat();
         result.traces = self.tracer.finish(&self.engine.tree, &session.context.limits);
         result.capacities = self.engine.capacities();
+        result.memory = self.engine.memory(&result.counts);
         result.growth.append(&mut self.engine.growth);
         result.conditions = std::mem::take(&mut self.conditions);
         result.duration += self.spent;

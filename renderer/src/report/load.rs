@@ -4,7 +4,7 @@ mod manifest;
 mod tables;
 
 use super::results::{LightingName, Picture, ResultSet, Run, is_tuned};
-use crate::output::{Manifest, Older, age, check_run, find_runs, newest_of_each, saved_times};
+use crate::output::{Manifest, Older, age, check_run, find_runs, newest_of_each, saved_memory, saved_times};
 use crate::{Error, Result};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -122,6 +122,13 @@ fn read_run(Found { name, directory, manifest: file }: &Found) -> Result<Run> {
         (distributions, most_fragments) = tables::read_histograms(directory, &frames.numbers)?;
     }
     let times = saved_times(directory, &frames.numbers)?;
+    let pictures = pictures(&directory.join("frames"));
+    let groups = if pictures.is_empty() {
+        vec![]
+    } else {
+        let pictured: Vec<u32> = pictures.iter().map(|picture| picture.frame).collect();
+        tables::read_groups(directory, &pictured)?
+    };
     Ok(Run {
         name: name.clone(),
         setting: manifest::setting(file, views, method)?,
@@ -139,7 +146,10 @@ fn read_run(Found { name, directory, manifest: file }: &Found) -> Result<Run> {
         times,
         distributions,
         most_fragments,
-        pictures: pictures(&directory.join("frames")),
+        memory: saved_memory(directory)?,
+        pictures,
+        lists_all: manifest::lists_all(file, method),
+        groups,
     })
 }
 
@@ -152,11 +162,11 @@ fn pictures(directory: &Path) -> Vec<Picture> {
             let image = entry.path();
             let stem = image.file_name()?.to_str()?.strip_suffix(".png")?;
             let frame = stem.parse().ok()?;
-            let [lights, clusters, slices, birdseye] =
-                ["lights", "clusters", "slices", "birdseye"].map(|shown| {
+            let [lights, heat, clusters, birdseye] =
+                ["lights", "heat", "clusters", "birdseye"].map(|shown| {
                     Some(directory.join(format!("{stem}_{shown}.png"))).filter(|path| path.is_file())
                 });
-            Some(Picture { frame, image, lights, clusters, slices, birdseye })
+            Some(Picture { frame, image, lights, heat, clusters, birdseye })
         })
         .collect();
     found.sort_by_key(|picture| picture.frame);

@@ -12,8 +12,9 @@
 //!   claims.json          the claims with the numbers behind them
 //!   runs.csv             statistics of every metric of every run
 //!   indi-encl.csv        Indi against Encl by every way of assignment; tests.csv: tests of light against cluster
-//!   analysis-times.csv, analysis-lines.csv, analysis-classes.csv
-//!                        means and deviations, slopes and offsets over lights, rankings of methods
+//!   analysis-times.csv, analysis-lines.csv, analysis-classes.csv, analysis-memory.csv
+//!                        means and deviations, slopes and offsets over lights, rankings of methods, memory
+//!   groups.csv           groups by lights, in bins, of every frame that has pictures
 //!   figures/ID.svg .csv  each figure, and the numbers plotted
 //! ```
 
@@ -87,7 +88,7 @@ pub fn write_report(directories: &[PathBuf], out: Option<&Path>) -> Result<Repor
     let galleries = pictures::galleries(&set)?;
     let claims = claims(&set);
     let tables = tables::all(&set);
-    let analysis = page::Analysis { figures: analysis::figures(&set), tables: analysis::tables(&set) };
+    let analysis = page::Analysis { figures: analysis::figures(&set)?, tables: analysis::tables(&set) };
     for figure in figures.iter().chain(&analysis.figures).chain(&galleries) {
         write_figure(&out.join("figures"), figure)?;
     }
@@ -95,6 +96,7 @@ pub fn write_report(directories: &[PathBuf], out: Option<&Path>) -> Result<Repor
         write_whole(&out.join(format!("{}.csv", table.id)), |file| table.write_csv(file))?;
     }
     write_whole(&out.join("runs.csv"), |file| page::write_runs_csv(file, &set))?;
+    write_whole(&out.join("groups.csv"), |file| analysis::groups::write_csv(file, &set))?;
     let json = serde_json::to_string_pretty(&claims)
         .map_err(|error| Error::Internal(format!("the claims are not JSON: {error}")))?;
     write_whole(&out.join("claims.json"), |file| writeln!(file, "{json}"))?;

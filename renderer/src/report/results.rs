@@ -3,7 +3,7 @@
 use super::way::Way;
 use crate::machine::{Conditions, Machine};
 use crate::methods::{Method, Sharing, Space};
-use crate::output::{ColumnTimes, FrameRow, Older};
+use crate::output::{ColumnTimes, FrameRow, MemoryRow, Older};
 use crate::stats::{Measured, Samples};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -18,6 +18,8 @@ pub mod metric {
     pub const COMPUTATIONS: &str = "lighting_computations";
     /// Sphere against cluster tests, over clusterings.
     pub const TESTS: &str = "intersection_tests";
+    /// How much the depth of the first view jumps from pixel to pixel.
+    pub const DISCONTINUITY: &str = "depth_discontinuity";
     /// GPU time of the frame, milliseconds.
     pub const FRAME: &str = "gpu_ms_frame";
     /// GPU time of clustering, milliseconds.
@@ -112,8 +114,23 @@ pub struct Run {
     pub distributions: BTreeMap<Distribution, Vec<Vec<u64>>>,
     /// The most fragments of any cluster of any frame; known of tuned methods alone.
     pub most_fragments: Option<u64>,
+    /// `memory.csv`.
+    pub memory: Vec<MemoryRow>,
     /// Rendered frames.
     pub pictures: Vec<Picture>,
+    /// Whether all groups have lists, not those alone that hold a fragment.
+    pub lists_all: bool,
+    /// Groups by lights, of the frames that have pictures.
+    pub groups: Vec<FrameGroups>,
+}
+
+/// Groups of one frame that have lists, by how many lights these hold.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct FrameGroups {
+    /// Frame number.
+    pub frame: u32,
+    /// Of each clustering (lights, groups) by ascending lights, groups above 0.
+    pub clusterings: Vec<Vec<(u32, u64)>>,
 }
 
 /// What clusters are counted by.
@@ -143,11 +160,11 @@ pub struct Picture {
     pub image: PathBuf,
     /// Lights per cluster as colour.
     pub lights: Option<PathBuf>,
+    /// The same by one scale for all frames, blended with the image.
+    pub heat: Option<PathBuf>,
     /// Clusters as colour.
     pub clusters: Option<PathBuf>,
-    /// Slices as colour, of grids that have several.
-    pub slices: Option<PathBuf>,
-    /// Clusters seen from above, with frusta.
+    /// The same seen from above, with frusta.
     pub birdseye: Option<PathBuf>,
 }
 
@@ -284,6 +301,21 @@ impl Run {
     pub fn measured(&self, metric: &str) -> Option<Measured> {
         self.times.get(metric).map(Samples::measure)
     }
+
+    /// Of the frames that have pictures, the one of least and the one of most depth discontinuity; where that is not known, the
+    /// first and the last. One where they are the same.
+    pub fn extremes(&self) -> Vec<u32> {
+        let cells = self.frames.metric(metric::DISCONTINUITY);
+        let discontinuity = |frame: &u32| {
+            let place = self.frames.numbers.binary_search(frame).ok();
+            place.and_then(|place| *cells.get(place)?).unwrap_or(0.0)
+        };
+        let by = |a: &u32, b: &u32| discontinuity(a).total_cmp(&discontinuity(b));
+        let frames = || self.pictures.iter().map(|picture| picture.frame);
+        let mut ends: Vec<u32> = frames().min_by(by).into_iter().chain(frames().max_by(by)).collect();
+        ends.dedup();
+        ends
+    }
 }
 
 /// A method as figures name it: `Indi Persp 64`, without `Indi` where `sharing` is not told.
@@ -329,6 +361,7 @@ mod tests {
             metric::INDICES,
             metric::COMPUTATIONS,
             metric::TESTS,
+            metric::DISCONTINUITY,
             metric::FRAME,
             metric::CLUSTER,
             metric::VISIBILITY,

@@ -28,6 +28,7 @@ pub fn run(method: &str, views: u32, lights: u32, value: impl Fn(&str, u32) -> O
         metric::INDICES,
         metric::COMPUTATIONS,
         metric::TESTS,
+        metric::DISCONTINUITY,
         metric::FRAME,
         metric::CLUSTER,
         metric::VISIBILITY,
@@ -60,7 +61,10 @@ pub fn run(method: &str, views: u32, lights: u32, value: impl Fn(&str, u32) -> O
             (Distribution::Fragments, vec![vec![0, 8]; FRAMES.len()]),
         ]),
         most_fragments: Some(4096),
+        memory: vec![],
         pictures: vec![],
+        lists_all: false,
+        groups: vec![],
     }
 }
 

@@ -7,6 +7,7 @@ use crate::audience::Audience;
 use crate::config::Config;
 use crate::engine::{plan_frames, shader_library};
 use crate::inputs::Inputs;
+use crate::measure::Extremes;
 use crate::output::{
     DeviceInfo, PlannedRun, check_run, is_complete, prepare_output, remove_abandoned, saved_fingerprint,
 };
@@ -68,6 +69,8 @@ struct Stage<'o> {
     player: Option<Player<'o>>,
     /// Runs that are counted, to be timed in turn.
     group: Vec<Member<'o>>,
+    /// The frames that were found for pictures, as they were told last: runs of a scene have the same.
+    told: Option<Extremes>,
 }
 
 impl<'o> Stage<'o> {
@@ -83,6 +86,13 @@ impl<'o> Stage<'o> {
     /// Whether the engines of the group and that of one more run are more than the device should hold.
     fn is_overfilled_by(&self, more: &Member) -> bool {
         self.player.as_ref().is_some_and(|player| group::overfills(player, &self.group, more))
+    }
+
+    /// What is new about the frames that a run found for its pictures.
+    fn news(&mut self, extremes: Option<Extremes>) -> Option<String> {
+        let found = extremes.filter(|_| self.told != extremes)?;
+        self.told = extremes;
+        Some(format!("images of depth discontinuity: {found}"))
     }
 
     fn time(&mut self, interrupt: &AtomicBool) -> Result<(), Failed> {
@@ -189,7 +199,7 @@ impl<'a> Sweep<'a> {
             self.audience.note(&note);
         }
         let (player, pending) = self.checked(open, pending)?;
-        self.make(Stage { open, player, group: vec![] }, pending)
+        self.make(Stage { open, player, group: vec![], told: None }, pending)
     }
 
     /// Counts the runs one by one, and times them in groups.
@@ -262,6 +272,7 @@ impl<'a> Sweep<'a> {
         match stage.player().and_then(|player| player.count(run, &watch, &mut files)) {
             Ok(counted) => {
                 tally.counted();
+                stage.news(counted.extremes()).iter().for_each(|news| audience.note(news));
                 let member = Member { run, files, tally, counted: Some(counted) };
                 if stage.is_overfilled_by(&member) {
                     self.time(stage)?;

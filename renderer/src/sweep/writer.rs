@@ -83,7 +83,9 @@ impl Files<'_> {
             timing: result.timing.clone(),
             conditions: result.conditions.clone(),
             capacities: result.capacities,
+            memory_bytes: Some(result.memory.iter().map(|structure| structure.allocated).sum()),
             growth: result.growth.clone(),
+            discontinuity: result.extremes,
             started: rfc3339_utc(result.started),
             duration_s: result.duration.as_secs_f64(),
         })
@@ -133,6 +135,7 @@ impl RunSink for Files<'_> {
         if run.assign == Assign::Auto {
             self.audience.note(&format!("{}: lights assigned by {}", run.name, result.assigner));
         }
+        self.noted(writer.write_memory(&result.memory))?;
         let finished = writer.finish(&manifest, &result.counts, &result.times);
         self.noted(finished)?;
         self.timing = result.timing;

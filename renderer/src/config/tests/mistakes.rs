@@ -81,7 +81,7 @@ fn mistakes_in_files_are_named_with_line_column_and_nearest_name() {
         ("{\"frames\": \"../0\"}", "line 1, column 12: frames: a step of 0 frames: the step is at least 1"),
         (
             "{\"exr\": 3}",
-            "line 1, column 9: exr: invalid type: integer `3`, expected a list of frame numbers, \"all\" or \"none\"",
+            "line 1, column 9: exr: invalid type: integer `3`, expected a list of frame numbers, \"all\", \"none\" or \"discontinuity\"",
         ),
         (
             "{\"runs\": -1}",
@@ -190,4 +190,18 @@ fn images_of_frames_that_are_not_rendered_are_refused() {
     let config = Config { exr: "all".parse().unwrap(), ..Config::default() };
     assert_eq!(config.frame_numbers(670).unwrap().len(), 17);
     assert!(config.exr.contains(3));
+}
+
+#[test]
+fn frames_that_counting_finds_are_for_images_alone() {
+    let found = Config { exr: "discontinuity".parse().unwrap(), ..Config::default() };
+    found.check().unwrap();
+    assert_eq!(found.frame_numbers(670).unwrap().len(), 17);
+    assert!(!found.exr.is_empty() && !found.exr.contains(40), "which they are is not known yet");
+    let json = serde_json::to_value(&found).unwrap();
+    assert_eq!(json["exr"], "discontinuity");
+    assert_eq!(serde_json::from_value::<Config>(json).unwrap(), found);
+    let traced = Config { trace: found.exr, ..Config::default() };
+    let error = traced.check().unwrap_err().to_string();
+    assert!(error.starts_with("trace: discontinuity finds frames for images alone"), "{error}");
 }

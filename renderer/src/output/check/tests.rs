@@ -1,6 +1,6 @@
 use super::super::RunWriter;
-use super::super::saved::saved_frames;
-use super::super::testing::{counts, manifest, times};
+use super::super::saved::{saved_frames, saved_memory};
+use super::super::testing::{counts, manifest, memory, times};
 use super::*;
 use std::fs;
 use tempfile::TempDir;
@@ -12,6 +12,7 @@ fn whole() -> TempDir {
     let manifest = Manifest { frame_count: Some(2), ..manifest() };
     let writer = RunWriter::create(out.path(), "run").unwrap();
     writer.write_counted(&[counts(40), counts(80)]).unwrap();
+    writer.write_memory(&memory()).unwrap();
     writer.finish(&manifest, &[counts(40), counts(80)], &timed).unwrap();
     out
 }
@@ -67,6 +68,11 @@ fn a_value_that_no_run_has_is_named_with_its_line() {
         ("clusterings.csv", ",24,", ",-24,", "line 2: dz `-24`"),
         ("histograms.csv", "lights_per_cluster", "lights", "line 2: `lights` is no kind"),
         ("histograms.csv", ",200\n", ",1e9\n", "line 2: fragments `1e9`"),
+        ("memory.csv", ",lists,", ",heads,", "line 2: `heads` is no purpose"),
+        ("memory.csv", ",4096,", ",39,", "line 2: 36 bytes used, 40 at most, do not fit 39 allocated"),
+        ("memory.csv", ",4096,", ",4095,", "allocated bytes add up to 4415, in run.json to 4416"),
+        ("memory.csv", ",36,", ",41,", "line 2: 41 bytes used, 40 at most"),
+        ("memory.csv", "\nlights,", "\nlight_indices,", "line 3: structure light_indices comes twice"),
     ];
     for (file, from, to, expected) in cases {
         let message = said(file, from, to);
@@ -80,8 +86,8 @@ fn rows_and_cells_and_columns_that_miss_or_are_too_many_are_found() {
     let cases = [
         ("frames.csv", "gpu_ms_shade\n", "gpu_ms_shade,more\n", "line 1: a column `more` is not known"),
         ("frames.csv", "time_s,views", "time_s,time_s", "line 1: two columns are called `time_s`"),
-        ("frames.csv", ",4.000000\n", ",4.000000,1\n", "line 2: 22 cells under a header of 21"),
-        ("frames.csv", ",4.000000\n", "\n", "line 2: 20 cells under a header of 21"),
+        ("frames.csv", ",4.000000\n", ",4.000000,1\n", "line 2: 23 cells under a header of 22"),
+        ("frames.csv", ",4.000000\n", "\n", "line 2: 21 cells under a header of 22"),
         ("clusterings.csv", "40,1,2,3,4,1,0,1000,ffffffffffffffff\n", "", "line 3: frame 80, clustering 0"),
         (
             "clusterings.csv",
@@ -126,35 +132,29 @@ fn tables_of_earlier_versions_lack_what_was_added_later() {
     let path = directory.join("frames.csv");
     let text = fs::read_to_string(&path).unwrap();
     let columns: Vec<&str> = text.lines().next().unwrap().split(',').collect();
-    let added = columns.iter().position(|column| *column == "fragments_hidden").unwrap();
+    let known = |place: usize| !["fragments_hidden", "depth_discontinuity"].contains(&columns[place]);
     let without = |line: &str| {
-        let mut cells: Vec<&str> = line.split(',').collect();
-        cells.remove(added);
-        cells.join(",") + "\n"
+        let cells = line.split(',').enumerate().filter(|(place, _)| known(*place));
+        cells.map(|(_, cell)| cell).collect::<Vec<_>>().join(",") + "\n"
     };
     fs::write(&path, text.lines().map(without).collect::<String>()).unwrap();
     check_run(&directory).unwrap();
     assert_eq!(saved_frames(&directory).unwrap(), rows);
-}
 
-#[test]
-fn a_stage_that_follows_changes_is_not_every_frames() {
-    let out = whole();
-    let path = out.path().join("run/timings.csv");
-    let text = fs::read_to_string(&path).unwrap();
-    let shaded = "0,40,frame/shade[0],4.000000,0.500000\n";
-    let with = |stage: &str| text.replacen(shaded, &format!("{shaded}0,40,{stage},0.1,0.1\n"), 1);
-    fs::write(&path, with("frame/cluster[0]/build_boxes")).unwrap();
-    check_run(&out.path().join("run")).unwrap();
-    fs::write(&path, with("frame/cluster[0]/count_lights")).unwrap();
-    assert!(check_run(&out.path().join("run")).is_err());
+    assert_eq!(saved_memory(&directory).unwrap().len(), 2);
+    fs::remove_file(directory.join("memory.csv")).unwrap();
+    assert!(check_run(&directory).unwrap_err().to_string().contains("memory.csv: is missing"));
+    let manifest = Manifest { memory_bytes: None, ..Manifest::read(&directory).unwrap() };
+    fs::write(directory.join("run.json"), serde_json::to_string(&manifest).unwrap()).unwrap();
+    check_run(&directory).unwrap();
+    assert_eq!(saved_memory(&directory).unwrap(), []);
 }
 
 #[test]
 fn files_that_are_cut_off_anywhere_are_found() {
     let out = whole();
     let directory = out.path().join("run");
-    for file in ["run.json", "frames.csv", "clusterings.csv", "histograms.csv", "timings.csv"] {
+    for file in ["run.json", "frames.csv", "clusterings.csv", "histograms.csv", "memory.csv", "timings.csv"] {
         let path = directory.join(file);
         let bytes = fs::read(&path).unwrap();
         // The last line break of a manifest carries nothing.
@@ -187,7 +187,7 @@ fn a_missing_frame_is_found_by_the_manifest() {
 fn no_byte_makes_it_panic_or_say_more_than_a_line() {
     let out = whole();
     let directory = out.path().join("run");
-    for file in ["run.json", "frames.csv", "clusterings.csv", "histograms.csv", "timings.csv"] {
+    for file in ["run.json", "frames.csv", "clusterings.csv", "histograms.csv", "memory.csv", "timings.csv"] {
         let path = directory.join(file);
         let bytes = fs::read(&path).unwrap();
         for place in 0..bytes.len() {

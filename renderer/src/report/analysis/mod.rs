@@ -4,19 +4,24 @@
 //! ```text
 //!             ┌─> spread ──> table and bars: a setting and lighting            (figures 4.8, 4.12)
 //! ResultSet ──┼─> growth ──> lines over lights, bars, table: a setting         (figure 4.13)
-//!             └─> ranking ─> table: settings that differ in scene alone        (tables 4.4 to 4.6)
+//!             ├─> memory ──> bars and table: a setting and lighting
+//!             ├─> ranking ─> table: settings that differ in scene alone        (tables 4.4 to 4.6)
+//!             └─> groups ──> heat maps and histograms: a method of a setting   (figures 4.10, 4.11)
 //! ```
 //!
 //! A [`Part`] of the frame is what is told of; every number has the interval that [`crate::stats`] gives it.
 
+pub mod groups;
 mod growth;
+mod memory;
 mod ranking;
 mod spread;
 
-use super::chart::{Key, Look, palette::Color};
+use super::chart::{Bar, Chart, Key, Look, Plot, palette::Color};
 use super::figure::Figure;
-use super::results::{ResultSet, Run, Setting, metric};
+use super::results::{LightingName, ResultSet, Run, Setting, metric};
 use super::tables::Table;
+use crate::Result;
 use crate::methods::Method;
 use crate::stats::{Interval, Measured};
 
@@ -66,15 +71,40 @@ impl Part {
     }
 }
 
-/// Bars and lines.
-pub fn figures(set: &ResultSet) -> Vec<Figure> {
-    [spread::figures(set), growth::figures(set)].concat()
+/// Bars, lines, histograms.
+///
+/// # Errors
+/// A picture cannot be read.
+pub fn figures(set: &ResultSet) -> Result<Vec<Figure>> {
+    Ok([spread::figures(set), growth::figures(set), memory::figures(set), groups::figures(set)?].concat())
 }
 
 /// The tables that have rows.
 pub fn tables(set: &ResultSet) -> Vec<Table> {
-    let all = [spread::table(set), growth::table(set), ranking::table(set)];
+    let all = [spread::table(set), growth::table(set), ranking::table(set), memory::table(set)];
     all.into_iter().filter(|table| !table.rows.is_empty()).collect()
+}
+
+/// Beside each other; more lightings stand below each other.
+const COLUMNS: usize = 3;
+
+/// A panel of bars a lighting, in a unit and with a legend; `None` without lightings.
+fn by_lighting(
+    lightings: &[LightingName],
+    (unit, legend): (&str, Vec<Key>),
+    bars: impl Fn(&LightingName) -> Vec<Bar>,
+) -> Option<Chart> {
+    let labels: Vec<String> = lightings.iter().map(|lighting| lighting.label.clone()).collect();
+    let (rows, columns) =
+        if labels.len() > COLUMNS { (labels, vec![unit.into()]) } else { (vec![unit.into()], labels) };
+    (!lightings.is_empty()).then(|| Chart {
+        names: ["row", "column", "part", "method"],
+        columns,
+        rows,
+        panels: lightings.iter().map(|lighting| Some(Plot::Bars(bars(lighting)))).collect(),
+        legend,
+        ..Chart::default()
+    })
 }
 
 /// The methods of a setting in their order.

@@ -1,15 +1,12 @@
 //! Means of assignment and shading, and how much the frames of a run differ (Enhuber, figures 4.8 and 4.12).
 
-use super::{Part, cells, methods};
+use super::{Part, by_lighting, cells, methods};
 use crate::output::with_interval;
-use crate::report::chart::{Bar, Chart, Plot};
+use crate::report::chart::{Bar, Chart};
 use crate::report::figure::{self, Drawn, Figure, Wanted};
 use crate::report::results::{LightingName, ResultSet, Run, Setting, lightings, method_name, metric};
 use crate::report::tables::{Row, Table};
 use crate::stats::{Measured, Samples};
-
-/// Beside each other; more lightings stand below each other.
-const COLUMNS: usize = 3;
 
 const WANTED: Wanted<'static> = Wanted {
     id: "analysis-times",
@@ -30,21 +27,8 @@ pub fn figures(set: &ResultSet) -> Vec<Figure> {
 
 fn chart(set: &ResultSet, setting: &Setting) -> Option<Chart> {
     let lightings = lightings(set.of(setting).filter(|run| Part::Assignment.mean(run).is_some()));
-    if lightings.is_empty() {
-        return None;
-    }
-    let labels: Vec<String> = lightings.iter().map(|lighting| lighting.label.clone()).collect();
-    let (rows, columns) =
-        if labels.len() > COLUMNS { (labels, vec!["ms".into()]) } else { (vec!["ms".into()], labels) };
-    let panel = |lighting| Some(Plot::Bars(bars(set, setting, lighting)));
-    Some(Chart {
-        names: ["row", "column", "part", "method"],
-        columns,
-        rows,
-        panels: lightings.iter().map(panel).collect(),
-        legend: [Part::Assignment, Part::Shading].map(Part::key).to_vec(),
-        ..Chart::default()
-    })
+    let legend = [Part::Assignment, Part::Shading].map(Part::key).to_vec();
+    by_lighting(&lightings, ("ms", legend), |lighting| bars(set, setting, lighting))
 }
 
 fn bars(set: &ResultSet, setting: &Setting, lighting: &LightingName) -> Vec<Bar> {

@@ -1,12 +1,12 @@
 //! A chart as SVG.
 
-use super::bars;
 use super::layout::Layout;
 use super::marks;
 use super::palette::{self, VIRIDIS, hex, logarithmic};
 use super::scale::{Scale, decades, nice_top, ticks};
 use super::svg::{Anchor, Svg, place};
 use super::{Chart, Heat, Picture, Plot};
+use super::{bars, columns};
 use crate::report::bins;
 use crate::report::format::{grouped, short};
 
@@ -69,7 +69,9 @@ impl Chart {
         for &(index, [x, y]) in &layout.keys {
             let key = &self.legend[index];
             let middle = y + 10.0;
-            let areas = self.drawn().any(|(_, _, plot)| matches!(plot, Plot::Stack(_) | Plot::Bars(_)));
+            let areas = self
+                .drawn()
+                .any(|(_, _, plot)| matches!(plot, Plot::Stack(_) | Plot::Bars(_) | Plot::Columns(_)));
             if areas {
                 svg.rect(&format!("f-{}", key.look.color), [x + 10.0, middle - 6.0, 12.0, 12.0]);
             } else {
@@ -126,6 +128,10 @@ impl Chart {
                 y_axis(svg, axes.y, frame);
             }
             Plot::Heat(heat) => draw_heat(svg, heat, axes.x, frame),
+            Plot::Columns(all) => {
+                y_axis(svg, axes.y, frame);
+                columns::draw(svg, all, &axes);
+            }
             Plot::Bars(_) | Plot::Picture(_) => {}
         }
         svg.close("g");
@@ -153,13 +159,21 @@ impl Chart {
                 y: Scale { logarithmic: true, domain: [y[0] / 2.0, y[1] * 8.0], range: [top + height, top] },
             };
         }
+        if let Plot::Columns(_) = plot {
+            let all = self.drawn().filter_map(|(_, _, plot)| match plot {
+                Plot::Columns(columns) => Some(columns),
+                _ => None,
+            });
+            let x = Scale { logarithmic: false, domain: self.x_domain(), range: [left, left + width] };
+            return Axes { x, y: columns::counts(all.flatten(), [top, top + height]) };
+        }
         let most = match plot {
             Plot::Lines(series) => {
                 nice_top(series.iter().flat_map(|s| &s.points).map(|p| p[1]).fold(0.0, f64::max), Y_TICKS)
             }
             Plot::Stack(stack) => nice_top(stack.top, Y_TICKS),
             Plot::Heat(heat) => heat.rows as f64,
-            Plot::Bars(_) | Plot::Picture(_) => 1.0,
+            Plot::Bars(_) | Plot::Columns(_) | Plot::Picture(_) => 1.0,
         };
         Axes {
             x: Scale { logarithmic: false, domain: self.x_domain(), range: [left, left + width] },
@@ -173,6 +187,7 @@ impl Chart {
             Plot::Lines(series) => ends(series.iter().flat_map(|s| s.points.iter().map(|p| p[0])), 0.0),
             Plot::Stack(stack) => ends(stack.parts.iter().flat_map(|s| s.points.iter().map(|p| p[0])), 0.0),
             Plot::Heat(heat) => ends(heat.x.iter().copied(), half_step(&heat.x)),
+            Plot::Columns(all) => ends(all.iter().flat_map(|column| column.x), 0.0),
             Plot::Bars(_) | Plot::Picture(_) => [f64::INFINITY, f64::NEG_INFINITY],
         });
         let [low, high] = ends

@@ -2,7 +2,7 @@
 
 use super::draw::half_step;
 use super::layout::Layout;
-use super::{Chart, Heat, Plot, Series};
+use super::{Chart, Column, Heat, Plot, Series};
 use crate::report::bins;
 use serde_json::{Value, json};
 use std::fmt::Display;
@@ -42,6 +42,11 @@ impl Chart {
                         }
                     }
                 }
+                Plot::Columns(columns) => {
+                    for Column { label, x, count, .. } in columns {
+                        write(label, &x[0], &count.to_string())?;
+                    }
+                }
                 Plot::Picture(picture) => write(&picture.alt, &picture.frame, &picture.file)?,
             }
         }
@@ -60,7 +65,8 @@ impl Chart {
                     Plot::Lines(series) => lines(series, false),
                     Plot::Stack(stack) => lines(&stack.parts, true),
                     Plot::Heat(heat) => heat_data(heat),
-                    Plot::Bars(_) | Plot::Picture(_) => return None,
+                    // Columns have tips of their own.
+                    Plot::Bars(_) | Plot::Columns(_) | Plot::Picture(_) => return None,
                 };
                 panel["at"] = json!([row, column]);
                 panel["frame"] = json!(frame.map(|place| (place * 10.0).round() / 10.0));

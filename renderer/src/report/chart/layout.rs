@@ -35,7 +35,9 @@ impl Layout {
     /// Lays a chart out.
     pub fn of(chart: &Chart) -> Self {
         let columns = chart.columns.len().max(1);
-        let pictures = chart.panels.iter().flatten().any(|plot| matches!(plot, Plot::Picture(_)));
+        // Nothing but pictures needs no room for axes.
+        let pictures = chart.panels.iter().flatten().next().is_some()
+            && chart.panels.iter().flatten().all(|plot| matches!(plot, Plot::Picture(_)));
         let width = match columns {
             1 => 800.0,
             2 => 960.0,
@@ -72,6 +74,9 @@ impl Layout {
     }
 }
 
+/// Of a panel of columns, unless pictures beside it are higher.
+const COLUMNS_HEIGHT: f64 = 160.0;
+
 fn panel_height(chart: &Chart, width: f64) -> f64 {
     let pictures = chart.panels.iter().flatten().filter_map(|plot| match plot {
         Plot::Picture(picture) => {
@@ -83,6 +88,7 @@ fn panel_height(chart: &Chart, width: f64) -> f64 {
     let lowest = pictures.fold(f64::INFINITY, f64::min);
     let tallest = chart.panels.iter().flatten().map(|plot| match plot {
         Plot::Picture(_) => lowest,
+        Plot::Columns(_) => COLUMNS_HEIGHT,
         Plot::Heat(_) => 190.0,
         Plot::Stack(_) => 140.0,
         Plot::Bars(all) => bars::height(all.len()),

@@ -1,7 +1,8 @@
-//! Small multiples as plain SVG: a grid of panels of lines, stacked areas, bars, heat maps or pictures, with axes, ticks and
+//! Small multiples as plain SVG: a grid of panels of lines, stacked areas, bars, columns, heat maps or pictures, with axes, ticks and
 //! legend; the same numbers as CSV, and as JSON for the page's tooltips.
 
 mod bars;
+mod columns;
 mod draw;
 mod export;
 mod layout;
@@ -69,6 +70,8 @@ pub enum Plot {
     Heat(Heat),
     /// Bars across, one below the other.
     Bars(Vec<Bar>),
+    /// Columns side by side, on a logarithmic axis: how many things there are of each kind.
+    Columns(Vec<Column>),
     /// An image.
     Picture(Picture),
 }
@@ -104,6 +107,19 @@ pub struct Bar {
     pub parts: Vec<(Key, f64)>,
     /// From where to where the whole lies.
     pub interval: Option<Interval>,
+}
+
+/// A column of a histogram.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// What is counted in it, such as a range of numbers: `26-50`.
+    pub label: String,
+    /// From where to where it reaches along x.
+    pub x: [f64; 2],
+    /// How many there are, at least 1.
+    pub count: u64,
+    /// How it is filled.
+    pub color: Color,
 }
 
 /// Counts over x and ordered rows.

@@ -1,5 +1,6 @@
 //! What a report asks of `run.json`.
 
+use crate::assign::Clusters;
 use crate::lights::Lighting;
 use crate::methods::Method;
 use crate::output::{MANIFEST, Manifest, Source};
@@ -32,6 +33,11 @@ pub fn setting(run: &Manifest, views: u32, method: Method) -> Result<Setting> {
         hashes: [run.scene.sha256.clone(), run.recording.sha256.clone()],
         way: Way::new(&run.config, method),
     })
+}
+
+/// Whether all groups of a run of `method` have lists, not those alone that hold a fragment.
+pub fn lists_all(run: &Manifest, method: Method) -> bool {
+    run.config.clusters.first().is_some_and(|choice| method.listed(choice.of(&method)) == Clusters::All)
 }
 
 /// Where its light came from.

@@ -5,7 +5,7 @@ use crate::output::{
     ClusteringRow, FRAGMENTS_PER_CLUSTER, HistogramRow, LIGHTS_PER_CLUSTER, each_row, saved_frames,
 };
 use crate::report::bins;
-use crate::report::results::{Distribution, Frames};
+use crate::report::results::{Distribution, FrameGroups, Frames};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -23,6 +23,23 @@ pub fn read_grid(directory: &Path) -> Result<Option<[u32; 3]>> {
         Ok(())
     })?;
     Ok(grid)
+}
+
+/// Groups that have lists by lights, of some frames, ascending.
+pub fn read_groups(directory: &Path, frames: &[u32]) -> Result<Vec<FrameGroups>> {
+    let none = |&frame: &u32| FrameGroups { frame, clusterings: vec![] };
+    let mut found: Vec<FrameGroups> = frames.iter().map(none).collect();
+    each_row(directory, |_, row: HistogramRow| {
+        let Ok(place) = frames.binary_search(&row.frame) else { return Ok(()) };
+        if row.kind == LIGHTS_PER_CLUSTER {
+            let clusterings = &mut found[place].clusterings;
+            let number = row.clustering as usize;
+            clusterings.resize(clusterings.len().max(number + 1), vec![]);
+            clusterings[number].push((row.bin, row.clusters));
+        }
+        Ok(())
+    })?;
+    Ok(found)
 }
 
 type Distributions = BTreeMap<Distribution, Vec<Vec<u64>>>;
