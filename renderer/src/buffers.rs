@@ -15,6 +15,9 @@
 //! Where bounds are measured, `views` and `grid` go to `cluster_bounds` once `visible_clusters` are there (bounds), and the
 //! lists are made from these.
 //!
+//! Where cells are tested as boxes, `grid` and `slice_planes` go to `cluster_boxes` first (build_boxes), in frames whose
+//! projection is not that of the last; the lists are made from these.
+//!
 //! Where the device culls, `views`, `instances`, `drawables` and `draw_order` go to `draw_commands` and
 //! `drawn_instances` before all that (cull).
 //!
@@ -34,8 +37,8 @@ pub use set::{BufferSet, set};
 pub use sizes::ClusteringSizes;
 
 use crate::gpu_interface::{
-    BLOCK_WORDS, COUNTER_COUNT, Candidate, ClusterGroup, ClusteringState, DISPATCH_COUNT, DispatchSize,
-    GridData, InstanceData, LightData, LightNode, LightVolume, MEASUREMENT_WORDS, PixelData,
+    BLOCK_WORDS, COUNTER_COUNT, Candidate, ClusterBox, ClusterGroup, ClusteringState, DISPATCH_COUNT,
+    DispatchSize, GridData, InstanceData, LightData, LightNode, LightVolume, MEASUREMENT_WORDS, PixelData,
 };
 use crate::measure::Purpose;
 use info::{buffer, bytes};
@@ -98,6 +101,11 @@ buffers! {
         .storage("uint cluster_bounds[]")
         .sized(|s| bytes::<u32>(s.bound_words()))
         .serving(Purpose::Grouping);
+    /// The box around each cell of the grid, where that is tested against lights; it stays until the projection changes.
+    ClusterBoxes = buffer("cluster_boxes", Owner::Clustering)
+        .storage("ClusterBox cluster_boxes[]")
+        .texels("cluster_box", Element::Struct(ClusterBox::INFO))
+        .sized(|s| bytes::<ClusterBox>(s.boxes()));
     /// Sums of the blocks of a prefix sum.
     BlockSums = buffer("block_sums", Owner::Clustering)
         .storage("uint block_sums[]")

@@ -5,6 +5,7 @@ mod host_data;
 pub use host_data::{grid_data, gridless_data, view_data, world_slack};
 
 use crate::buffers::{BUFFER_COUNT, BufferName, BufferSet, BufferView, ClusteringSizes, Owner, set};
+use crate::geometry::{ClusterSpace, Grid};
 use crate::layouts::{BoundBuffers, DescriptorSets, Pipeline};
 use crate::vk::{Buffer, Context, Memory, TexelView};
 use crate::{Error, Result};
@@ -66,6 +67,10 @@ pub struct Clustering {
     pub word_count: u32,
     /// Most visible clusters that fit.
     pub visible_capacity: u32,
+    /// The grid, wherever it lies, whose boxes are on the device, or will be once they are built.
+    boxes_of: Option<(ClusterSpace, [u32; 3])>,
+    /// Whether the frame at hand builds the boxes around cells.
+    pub builds_boxes: bool,
     handles: [[vk::Buffer; BUFFER_COUNT]; FRAME_SLOTS],
     sets: [Vec<vk::DescriptorSet>; FRAME_SLOTS],
     empty: BufferSet,
@@ -104,6 +109,8 @@ impl Clustering {
             cluster_count: 0,
             word_count: 0,
             visible_capacity: sizes.capacities.visible_clusters,
+            boxes_of: None,
+            builds_boxes: false,
             sets: [const { vec![] }; FRAME_SLOTS],
             empty: empty(sizes),
             pools: vec![],
@@ -127,6 +134,15 @@ impl Clustering {
         }
         self.pools.push(pool);
         Ok(())
+    }
+
+    /// Has the boxes around the cells of `grid` built, unless the device has them, or those of one like it elsewhere.
+    pub fn want_boxes(&mut self, grid: &Grid) {
+        let wanted = Some((grid.space, grid.dimensions));
+        if self.boxes_of != wanted {
+            self.boxes_of = wanted;
+            self.builds_boxes = true;
+        }
     }
 
     /// What passes bind for the frame in flight in `slot`.

@@ -4,8 +4,8 @@
 mod structs;
 
 pub use structs::{
-    Candidate, ClusterGroup, ClusteringState, DispatchSize, DrawCommand, DrawCounts, GridData, InstanceData,
-    LightData, LightNode, LightVolume, MaterialData, ModelBox, PixelData, Push, ViewData,
+    Candidate, ClusterBox, ClusterGroup, ClusteringState, DispatchSize, DrawCommand, DrawCounts, GridData,
+    InstanceData, LightData, LightNode, LightVolume, MaterialData, ModelBox, PixelData, Push, ViewData,
 };
 
 use crate::geometry::VolumeKind;
@@ -133,9 +133,10 @@ const TEXTURE_SLOTS: [(&str, TextureSlot); 5] = [
 ];
 
 /// Every shared struct; one comes after those it contains.
-const STRUCTS: [StructInfo; 16] = [
+const STRUCTS: [StructInfo; 17] = [
     ViewData::INFO,
     GridData::INFO,
+    ClusterBox::INFO,
     LightNode::INFO,
     LightVolume::INFO,
     LightData::INFO,
@@ -160,6 +161,7 @@ const VARIANT_NAMES: [&[&str]; 8] = [
     &["CLUSTERS_VISIBLE", "CLUSTERS_ALL"],
     &[
         "SLICES_GEOMETRIC",
+        "SLICES_GEOMETRIC_BIASED",
         "SLICES_SECOND_PLANE",
         "SLICES_LINEAR",
         "SLICES_UNIFORM_NDC",

@@ -90,6 +90,7 @@ pub struct Pipelines {
     pub pixel_models: Option<[Arc<Pipeline>; 2]>,
     clustered: Option<ClusteredPipelines>,
     bounds: Option<VisitPipelines>,
+    build_boxes: Option<Arc<Pipeline>>,
     accelerated: Option<AcceleratedPipelines>,
     all: Vec<Arc<Pipeline>>,
 }
@@ -113,6 +114,11 @@ impl Pipelines {
     /// Measures the bounds of visible clusters; only its pass asks.
     pub fn bounds(&self) -> &VisitPipelines {
         self.bounds.as_ref().expect("stage bounds runs where bounds are measured")
+    }
+
+    /// Makes the boxes around cells; `None` where they are not tested.
+    pub fn build_boxes(&self) -> Option<&Pipeline> {
+        self.build_boxes.as_deref()
     }
 
     /// What assignment other than by brute force runs; only its passes ask.
@@ -180,6 +186,10 @@ impl PipelineStore {
             ClusterBounds::Cell => None,
             ClusterBounds::Depth | ClusterBounds::Box => Some(self.visit(variant, Visit::Bounds)?),
         };
+        let build_boxes = match variant.is_boxed() {
+            true => Some(self.compute("cluster/build_boxes.comp", &variant.test_defines())?),
+            false => None,
+        };
         let accelerated = match variant.assigner {
             Assigner::Brute => None,
             Assigner::Hierarchy | Assigner::Scatter => Some(self.accelerated(variant)?),
@@ -203,6 +213,7 @@ impl PipelineStore {
             pixel_models: self.pixel_models(variant)?,
             clustered,
             bounds,
+            build_boxes,
             accelerated,
             all: vec![],
         };

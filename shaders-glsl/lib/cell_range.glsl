@@ -36,6 +36,43 @@ CellRange cells_near(LightVolume volume)
 
 #elif SPACE == SPACE_PERSPECTIVE
 
+// Slices between whose planes some of a sphere may lie.
+ivec2 slices_near(vec4 sphere)
+{
+    float depth = -sphere.z;
+    vec2 slices = vec2(clamped_slice_coordinate(depth - sphere.w), clamped_slice_coordinate(depth + sphere.w));
+    return cells_between(slices.x, slices.y, 1e-4 * grid.scale.z, grid.dimensions.z);
+}
+
+#if BOXED
+
+// Columns (or rows) whose boxes, in some slice between two depths, may reach a sphere `across` the axis. A box begins where the lower
+// side of its cell is farthest out, at the nearer or at the farther depth, and ends where the upper side is.
+ivec2 boxes_across(float across, float radius, vec2 depths, uint axis)
+{
+    uint count = grid.dimensions[axis];
+    if (depths.x <= 0.0)
+        return ivec2(0, int(count) - 1);
+    vec2 ends = across + vec2(-radius, radius);
+    vec2 tangents = ends / vec2(ends.x < 0.0 ? depths.x : depths.y, ends.y < 0.0 ? depths.y : depths.x);
+    vec2 cells = (tangents - grid.origin[axis]) * grid.scale[axis];
+    float error = 1e-4 * grid.scale[axis] * (1.0 + max(abs(tangents.x), abs(tangents.y)));
+    return cells_between(cells.x, cells.y, error, count);
+}
+
+CellRange cells_near(LightVolume volume)
+{
+    vec4 sphere = bounding_sphere(volume);
+    ivec2 z = slices_near(sphere);
+    uvec2 planes = min(uvec2(z.x, z.y + 1), grid.dimensions.z);
+    vec2 depths = vec2(slice_planes[planes.x], slice_planes[planes.y]);
+    ivec2 x = boxes_across(sphere.x, sphere.w, depths, 0u);
+    ivec2 y = boxes_across(sphere.y, sphere.w, depths, 1u);
+    return CellRange(ivec3(x.x, y.x, z.x), ivec3(x.y, y.y, z.y));
+}
+
+#else
+
 // Columns (or rows) whose two side planes, moved out by the radius, hold a centre `across` the axis at `depth`.
 // Where the sphere stays in front of the apex by its radius, those are the tangents between its two silhouette lines.
 ivec2 cells_across(float across, float depth, float radius, uint axis)
@@ -53,15 +90,13 @@ ivec2 cells_across(float across, float depth, float radius, uint axis)
 CellRange cells_near(LightVolume volume)
 {
     vec4 sphere = bounding_sphere(volume);
-    float depth = -sphere.z;
-    vec2 ends = vec2(depth - sphere.w, depth + sphere.w) / grid.origin.z;
-    vec2 slices = vec2(clamped_slice_coordinate(ends.x), clamped_slice_coordinate(ends.y));
-    ivec2 x = cells_across(sphere.x, depth, sphere.w, 0u);
-    ivec2 y = cells_across(sphere.y, depth, sphere.w, 1u);
-    ivec2 z = cells_between(slices.x, slices.y, 1e-4 * grid.scale.z, grid.dimensions.z);
+    ivec2 x = cells_across(sphere.x, -sphere.z, sphere.w, 0u);
+    ivec2 y = cells_across(sphere.y, -sphere.z, sphere.w, 1u);
+    ivec2 z = slices_near(sphere);
     return CellRange(ivec3(x.x, y.x, z.x), ivec3(x.y, y.y, z.y));
 }
 
+#endif
 #else
 
 CellRange cells_near(LightVolume volume)

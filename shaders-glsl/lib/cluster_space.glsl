@@ -13,7 +13,7 @@ vec3 cluster_coordinates(vec3 position)
 {
 #if SPACE == SPACE_PERSPECTIVE
     precise vec2 tangent = position.xy / -position.z;
-    precise vec3 coordinates = vec3((tangent - grid.origin.xy) * grid.scale.xy, slice_coordinate(-position.z / grid.origin.z));
+    precise vec3 coordinates = vec3((tangent - grid.origin.xy) * grid.scale.xy, slice_coordinate(-position.z));
 #else
     precise vec3 coordinates = (position - grid.origin) * grid.scale;
 #endif
@@ -22,17 +22,13 @@ vec3 cluster_coordinates(vec3 position)
 
 #if SPACE == SPACE_PERSPECTIVE
 
-// Error of a coordinate along z, in parts of itself and of grid.scale.z: twice what the Vulkan specification grants log2
-// (3 ULP), the division and the product. Grids are planned so that it stays below half a slice.
-const float SLICE_ROUNDING = 2e-6;
-
 // The slice whose planes a depth lies between, given its coordinate: slice_planes[slice] <= depth < slice_planes[slice + 1].
 // A coordinate near a whole number leaves it to the plane there, with which lights are tested (see slice_depth).
 uint slice_of(float depth, float coordinate)
 {
     float last = float(grid.dimensions.z - 1u);
     float plane = round(coordinate);
-    bool close = abs(coordinate - plane) < SLICE_ROUNDING * (abs(coordinate) + grid.scale.z);
+    bool close = abs(coordinate - plane) < slice_rounding(coordinate);
     if (close && plane >= 1.0 && plane <= last) {
         uint slice = uint(plane);
         return depth < slice_planes[slice] ? slice - 1u : slice;

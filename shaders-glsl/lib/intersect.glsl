@@ -5,6 +5,7 @@
 //   TEST_SAT_*    no separating axis among the edges (E), the planes' normals (P), and the axes from the centre to each
 //                 vertex (V) or to the nearest one (N)
 //   TEST_NEAREST  the nearest point of the cell lies in the sphere: exact
+//   BOXED         of the box around the cell, instead of it (Ortiz): conservative
 //
 // The cheap parts come first. Every step is `precise`: all ways of assignment get the same answer, to the bit. Any axis
 // that separates proves that the two do not meet, so rounding of an axis costs nothing but a false positive; rounding
@@ -21,7 +22,9 @@
 // Rounding of distances from a range of cells against those from its cells, in parts of the coordinates.
 const float RANGE_ROUNDING = 4e-6;
 
-#if SPACE == SPACE_PERSPECTIVE
+#if BOXED
+#include "lib/cell_boxed.glsl"
+#elif SPACE == SPACE_PERSPECTIVE
 #include "lib/cell_frustum.glsl"
 #elif SPACE == SPACE_MODEL
 #include "lib/cell_model.glsl"
@@ -108,7 +111,7 @@ bool meets_grown(CellBounds cell, vec4 sphere, vec3 half_extent)
     return nearest_point_within_grown(cell, sphere, half_extent);
 #elif !TEST_BOUNDED
     return true;
-#elif SPACE == SPACE_ORTHOGRAPHIC && TEST_NEAREST
+#elif (SPACE == SPACE_ORTHOGRAPHIC || BOXED) && TEST_NEAREST
     return nearest_point_within(CellBounds(cell.centre, cell.half_extent + half_extent), sphere);
 #else
     return within_planes_grown(cell, sphere, half_extent);

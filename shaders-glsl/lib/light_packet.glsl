@@ -26,7 +26,7 @@ uvec2 lights_met(uint visible, uint count)
         met.x |= uint(sphere_meets(cell, packet_spheres[i])) << i;
     [[unroll]] for (uint i = 0u; i < 32u; ++i)
         met.y |= uint(sphere_meets(cell, packet_spheres[32u + i])) << i;
-#if BOUNDS == BOUNDS_BOX && SPACE == SPACE_PERSPECTIVE
+#if BOUNDS == BOUNDS_BOX && SPACE == SPACE_PERSPECTIVE && !BOXED
     for (uint part = 0u; part < 2u; ++part)
         for (uint bits = met[part]; bits != 0u; bits &= bits - 1u)
             if (is_left_out(cell, packet_spheres[32u * part + uint(findLSB(bits))]))

@@ -12,7 +12,7 @@ void main()
         return;
     float coordinate = cluster_coordinates(vec3(0.0, 0.0, -uintBitsToFloat(measurements[i]))).z;
     measurements[count + i] = floatBitsToUint(coordinate);
-    measurements[2u * count + i] = floatBitsToUint(SLICE_ROUNDING * (abs(coordinate) + grid.scale.z));
+    measurements[2u * count + i] = floatBitsToUint(slice_rounding(coordinate));
     if (i == 0u) {
         measurements[3u * count] = floatBitsToUint(grid.origin.z);
         measurements[3u * count + 1u] = floatBitsToUint(grid.scale.z);

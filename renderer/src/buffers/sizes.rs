@@ -16,6 +16,8 @@ pub struct ClusteringSizes {
     pub listed: Clusters,
     /// What is kept of a cluster to be tested against lights.
     pub bounds: ClusterBounds,
+    /// Whether the boxes around cells are tested.
+    pub boxed: bool,
     /// Depths between slices of a perspective grid (most of all frames).
     pub slice_planes: u32,
     /// Lights (most of all frames).
@@ -47,6 +49,11 @@ impl ClusteringSizes {
     /// Words of the bounds of visible clusters.
     pub(super) fn bound_words(&self) -> u64 {
         self.bounds.words() * self.visible()
+    }
+
+    /// Boxes around cells.
+    pub(super) fn boxes(&self) -> u64 {
+        if self.boxed { self.clusters } else { 0 }
     }
 
     /// Entries of the offsets of lists: where each begins, and where the last one ends; none without clusters.
@@ -171,10 +178,11 @@ impl ClusteringSizes {
         let packets = u64::from(lights.div_ceil(ASSIGN_WORKGROUP));
         let groups = u64::from(visible.div_ceil(ASSIGN_WORKGROUP));
         let blocks = self.scan_blocks();
+        let boxes = self.boxes().div_ceil(u64::from(ASSIGN_WORKGROUP));
         for (what, workgroups, most) in [
             (format!("{lights} lights"), packets, most_x.min(most_y)),
             (format!("{visible} visible clusters"), groups, most_x),
-            (format!("{} clusters", self.clusters), blocks, most_x),
+            (format!("{} clusters", self.clusters), blocks.max(boxes), most_x),
         ] {
             if workgroups > most {
                 return Err(Error::Device(format!(
@@ -199,6 +207,7 @@ mod tests {
             clusters: 1 << 20,
             listed: Clusters::Visible,
             bounds: ClusterBounds::Cell,
+            boxed: false,
             slice_planes: 65,
             lights: 10_000,
             capacities,
@@ -234,6 +243,14 @@ mod tests {
         let few = Limits { max_texel_buffer_elements: 29_999, ..limits() };
         let many_lights = refusal(&ClusteringSizes { capacities: few_indices(), ..sizes() }, &few);
         assert!(many_lights.starts_with("buffer lights would be read as 30000 texels"), "{many_lights}");
+        let boxed = ClusteringSizes { boxed: true, ..sizes() };
+        let few_boxes = Limits { max_storage_buffer_range: 1 << 24, ..limits() };
+        assert!(refusal(&boxed, &few_boxes).starts_with("buffer cluster_boxes would need 33554432 bytes"));
+        sizes().check(&few_boxes).unwrap();
+        let few_texels = Limits { max_texel_buffer_elements: (1 << 21) - 1, ..limits() };
+        assert!(
+            refusal(&boxed, &few_texels).starts_with("buffer cluster_boxes would be read as 2097152 texels")
+        );
         let narrow = Limits { max_compute_work_group_count: [31; 3], ..limits() };
         assert!(refusal(&sizes(), &narrow).contains("would need a dispatch of"));
     }

@@ -54,14 +54,14 @@ pub fn grid_data(
     sizes: &ClusteringSizes,
 ) -> GridData {
     let dimensions = DVec3::from_array(grid.dimensions.map(f64::from));
-    let (lowest, cell, reach) = match grid.space {
+    let (lowest, cell, slice_bias, reach) = match grid.space {
         ClusterSpace::Perspective { frustum: f, slices } => {
             let [origin, step] = slices.on_device();
             let cell = DVec3::new((f.x1 - f.x0) / dimensions.x, (f.y1 - f.y0) / dimensions.y, step);
-            (DVec3::new(f.x0, f.y0, origin), cell, -f.z0)
+            (DVec3::new(f.x0, f.y0, origin), cell, slices.bias() as f32, -f.z0)
         }
         ClusterSpace::Orthographic { min, max } => {
-            (min, (max - min) / dimensions, min.abs().max(max.abs()).max_element())
+            (min, (max - min) / dimensions, 0.0, min.abs().max(max.abs()).max_element())
         }
     };
     let (low, high) = grid.bounds();
@@ -72,6 +72,7 @@ pub fn grid_data(
         origin: lowest.as_vec3().to_array(),
         scale: (1.0 / cell).as_vec3().to_array(),
         cell: cell.as_vec3().to_array(),
+        slice_bias,
         slack: slack(grid, views, origin, reach),
         slack_per_radius: SLACK_PER_METRE,
         light_count: lights,

@@ -34,11 +34,12 @@ pub trait Own: Copy {
 }
 
 impl Own for SphereTest {
-    /// The thesis's own: half spaces in perspective grids, the box in orthographic ones; that of models is exact.
+    /// The thesis's own: half spaces in perspective grids, the box in orthographic ones; that of models is exact, and cells that
+    /// can be tested as boxes are.
     fn own(method: &Method) -> Self {
         match method.kind().cells {
             Some(CellShape::Model) => Self::Exact,
-            Some(CellShape::Box) => Self::Box,
+            Some(CellShape::Box | CellShape::BoxedFrustum) => Self::Box,
             Some(CellShape::Frustum) | None => Self::HALF_SPACES,
         }
     }
@@ -95,9 +96,9 @@ impl<T> From<T> for Choice<T> {
     }
 }
 
-/// Whether the method's clusters are axis-aligned boxes.
+/// Whether the method's clusters are axis-aligned boxes, or can be tested as such.
 fn has_boxes(method: &Method) -> bool {
-    method.kind().cells == Some(CellShape::Box)
+    matches!(method.kind().cells, Some(CellShape::Box | CellShape::BoxedFrustum))
 }
 
 /// Whether the method's groups are models.
@@ -244,6 +245,8 @@ mod tests {
         assert!(refused("encl-persp-64").unwrap().contains("encl-persp-64 are no boxes"));
         assert!(refused("indi-displ-64-32").is_some());
         assert_eq!(refused("g-20"), None);
+        assert_eq!(refused("ortiz-16-9-24"), None);
+        assert_eq!(ways(&config(&["ortiz-16-9-24"], &["auto"])), ["ortiz-16-9-24 brute box"]);
         for test in ["box", "hs", "sat-n"] {
             let refused = config(&["m"], &[test]).cases()[0].check_case().unwrap_err();
             assert!(refused.contains("`exact` alone") && refused.contains(test), "{refused}");

@@ -4,6 +4,7 @@ use super::Visible;
 use crate::assign::block_size;
 use crate::geometry::{ClusterSpace, Grid, LightVolume, Plane, SphereTest};
 use crate::gpu_interface::BLOCK_COLUMNS;
+use glam::DVec3;
 use std::collections::BTreeSet;
 
 /// Cells from `low` to `high`, both included; empty where `low` is beyond `high` on some axis.
@@ -148,6 +149,9 @@ impl RangeTest {
         let bounded = test.is_bounded(!perspective);
         let empty = CellRange { low: [0; 3], high: [0; 3] };
         let CellRange { low, high } = if range.is_empty() { empty } else { *range };
+        if is_boxed(grid, test) {
+            return Self { planes: box_planes(grid.range_bounds(low, high)), perspective: false, bounded };
+        }
         let (first, last) = (grid.cell_planes(low), grid.cell_planes(high));
         let outer = |plane: usize| {
             if first[plane].offset > last[plane].offset { first[plane] } else { last[plane] }
@@ -168,6 +172,21 @@ impl RangeTest {
     }
 }
 
+/// Whether boxes around the pieces of a frustum are tested.
+fn is_boxed(grid: &Grid, test: SphereTest) -> bool {
+    matches!(grid.space, ClusterSpace::Perspective { .. }) && test == SphereTest::Box
+}
+
+/// The sides of a box from one corner to the opposite one.
+fn box_planes((low, high): (DVec3, DVec3)) -> [Plane; 6] {
+    let side =
+        |axis: usize, sign: f64, at: f64| Plane { normal: sign * DVec3::AXES[axis], offset: -sign * at };
+    std::array::from_fn(|place| match place % 2 {
+        0 => side(place / 2, 1.0, low[place / 2]),
+        _ => side(place / 2, -1.0, high[place / 2]),
+    })
+}
+
 /// Cells near a light.
 struct Near {
     cells: CellRange,
@@ -185,13 +204,14 @@ fn cells_near(grid: &Grid, volume: &LightVolume, test: SphereTest, epsilon: f64)
     let mut near = Near {
         cells: CellRange { low: [0; 3], high: grid.dimensions.map(|count| count - 1) },
         // Around this depth side planes begin to cut.
-        close: perspective && (-centre.z - APEX_RADII * radius).abs() < epsilon,
+        close: perspective && !is_boxed(grid, test) && (-centre.z - APEX_RADII * radius).abs() < epsilon,
     };
     if !test.is_bounded(!perspective) {
         near.close = false;
         return near;
     }
-    for axis in 0..3 {
+    // How far boxes reach across depends on the depths between which they lie.
+    for axis in [2, 0, 1] {
         let ends = match grid.space {
             ClusterSpace::Perspective { slices, .. } if axis == 2 => {
                 let slice = |depth: f64| slices.clamped_coordinate_of(depth);
@@ -202,7 +222,11 @@ fn cells_near(grid: &Grid, volume: &LightVolume, test: SphereTest, epsilon: f64)
             ClusterSpace::Perspective { frustum, .. } => {
                 let first = if axis == 0 { frustum.x0 } else { frustum.y0 };
                 let scale = f64::from(grid.dimensions[axis]) / frustum.size()[axis];
-                silhouette(centre[axis], -centre.z, radius).map(|tangents| {
+                let tangents = match is_boxed(grid, test) {
+                    true => box_tangents(centre[axis], radius, near.depths(grid)),
+                    false => silhouette(centre[axis], -centre.z, radius),
+                };
+                tangents.map(|tangents| {
                     let error = 1e-4 * scale * (1.0 + tangents[0].abs().max(tangents[1].abs()));
                     [(tangents[0] - first) * scale - error, (tangents[1] - first) * scale + error]
                 })
@@ -231,7 +255,24 @@ fn silhouette(across: f64, depth: f64, radius: f64) -> Option<[f64; 2]> {
     })
 }
 
+/// The tangents, across one axis, between which cells have boxes that a sphere reaches somewhere between two depths; `None` where
+/// these begin at the eye.
+fn box_tangents(across: f64, radius: f64, [nearest, farthest]: [f64; 2]) -> Option<[f64; 2]> {
+    let (low, high) = (across - radius, across + radius);
+    (nearest > 0.0).then(|| {
+        [low / if low < 0.0 { nearest } else { farthest }, high / if high < 0.0 { farthest } else { nearest }]
+    })
+}
+
 impl Near {
+    /// The depths between which the cells of a perspective grid lie.
+    fn depths(&self, grid: &Grid) -> [f64; 2] {
+        let mut planes = vec![];
+        grid.slice_planes(&mut planes);
+        let plane = |number: u32| f64::from(planes[number.min(grid.dimensions[2]) as usize]);
+        [plane(self.cells.low[2]), plane(self.cells.high[2] + 1)]
+    }
+
     /// Cuts one axis to what lies between two continuous cell coordinates.
     fn cut(&mut self, axis: usize, low: f64, high: f64, epsilon: f64) {
         let count = f64::from(self.cells.high[axis] + 1);
@@ -253,7 +294,6 @@ mod tests {
     use super::*;
     use crate::cpu::tests::{frustum_grid, row};
     use crate::geometry::CellTest;
-    use glam::DVec3;
 
     #[test]
     fn words_have_a_bit_for_every_block_on_every_level() {
@@ -287,12 +327,17 @@ mod tests {
             let centre = DVec3::new(9.0 * turn.sin(), 6.0 * (1.7 * turn).cos(), 2.0 - 0.4 * turn);
             let radius = 0.2 + 3.0 * (0.9 * turn).sin().abs();
             let volume = LightVolume::sphere(centre, radius);
-            let culled = cull_lights(&visible, &[volume], SphereTest::HALF_SPACES, 1e-4);
-            for &cluster in &clusters {
-                let cell = grid.cluster_at(cluster);
-                if CellTest::new(SphereTest::HALF_SPACES, &grid, cell).margin(&volume) >= 0.0 {
-                    let cells = culled.candidates.first().expect("it is a candidate").cells;
-                    assert!(cells.overlaps(&CellRange { low: cell, high: cell }), "{cell:?} of {cells:?}");
+            for test in [SphereTest::HALF_SPACES, SphereTest::Box] {
+                let culled = cull_lights(&visible, &[volume], test, 1e-4);
+                for &cluster in &clusters {
+                    let cell = grid.cluster_at(cluster);
+                    if CellTest::new(test, &grid, cell).margin(&volume) >= 0.0 {
+                        let cells = culled.candidates.first().expect("it is a candidate").cells;
+                        assert!(
+                            cells.overlaps(&CellRange { low: cell, high: cell }),
+                            "{cell:?} of {cells:?}"
+                        );
+                    }
                 }
             }
         }

@@ -6,6 +6,7 @@
 //!             └─bounds─> what they take of their cells ─assign_measured─> light lists
 //!             └─depth_steps─> how much depth jumps
 //! boxes of instances ─cull─> what is drawn
+//! grid ─build_boxes─> boxes around cells
 //! ```
 //!
 //! Assignment by other ways than brute force has twins of each of its steps, which take what the step before left on the
@@ -24,6 +25,7 @@ mod assign;
 mod attenuation;
 mod bounds;
 mod brdf;
+mod build_boxes;
 mod compact;
 mod cull;
 mod cull_lights;
@@ -38,6 +40,7 @@ pub use assign::{LightLists, assign, assign_measured};
 pub use attenuation::attenuation;
 pub use bounds::ClusterBounds;
 pub use brdf::{Surface, reflected};
+pub use build_boxes::build_boxes;
 pub use compact::{Compacted, NOT_VISIBLE, compact};
 pub use cull::{Seen, cull};
 pub use cull_lights::{Blocks, Candidate, CellRange, CulledLights, cull_lights, mark_blocks};

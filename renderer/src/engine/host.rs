@@ -105,6 +105,7 @@ impl Engine {
         clustering.dimensions = data.dimensions;
         clustering.host[slot][BufferName::Grid].write(0, &[data]);
         if let Some(grid) = &grid {
+            clustering.want_boxes(grid);
             grid.slice_planes(&mut self.slice_planes);
             clustering.host[slot][BufferName::SlicePlanes].write(0, &self.slice_planes);
         }

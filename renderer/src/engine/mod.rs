@@ -223,6 +223,7 @@ impl Engine {
             frame::record(r, frame, &method);
             (extend.1)(r, frame);
         });
+        self.clusterings.iter_mut().for_each(|clustering| clustering.builds_boxes = false);
         session.frame_slots[slot].submit()
     }
 

@@ -126,6 +126,7 @@ impl Chosen {
             clusters: self.clusters,
             bounds: self.bounds,
             slices: self.slices,
+            adds_bias: self.method.adds_bias(),
             samples: run.msaa,
             culling: run.culling,
             multiview: run.multiview,
@@ -142,10 +143,12 @@ impl Chosen {
     /// How large its buffers are.
     pub fn sizes(&self, run: &Config, largest: LargestGrid, mode: &Mode) -> ClusteringSizes {
         let LargestGrid { clusters, slice_planes } = largest;
+        let kind = self.method.kind();
         ClusteringSizes {
             clusters,
             listed: self.clusters,
             bounds: self.bounds,
+            boxed: kind.cells.is_some_and(|cells| cells.keeps_boxes(self.test)),
             slice_planes,
             lights: mode.lights,
             capacities: self.method.capacities(clusters, self.clusters, mode.capacities),

@@ -11,7 +11,7 @@ use crate::passes::{assign, lights as light_upload, readback, scan};
 use crate::scene::Scene;
 use crate::scene::procedural::by_name;
 use crate::selftest::cases::{
-    ORTHO, PERSP, box_grid, fragments_of, frustum_grid, pose, rain, random_bits, random_lights,
+    ORTHO, ORTIZ, PERSP, box_grid, fragments_of, frustum_grid, pose, rain, random_bits, random_lights,
 };
 use crate::selftest::{compaction_fault, lists as list_checks, offsets_fault, tenfold, touching_lights};
 use glam::DVec3;
@@ -98,6 +98,7 @@ impl Bench {
 
 mod assign_equality;
 mod bounds;
+mod boxes;
 mod cull;
 mod list_twins;
 mod sphere_tests;

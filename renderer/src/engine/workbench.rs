@@ -209,9 +209,9 @@ impl Workbench {
     /// # Errors
     /// Whatever fails on the device.
     pub fn stage_times(&mut self) -> Result<Vec<(String, f64)>> {
-        let times: Vec<f64> =
-            self.session.frame_slots[SLOT].timestamps.read()?.map(|(gpu_ms, _)| gpu_ms).collect();
-        Ok(self.engine.tree.paths().map(str::to_owned).zip(times).collect())
+        let tree = &self.engine.tree;
+        let times = self.session.frame_slots[SLOT].timestamps.read()?;
+        Ok(times.map(|time| (tree.path(time.scope).to_owned(), time.gpu_ms)).collect())
     }
 }
 

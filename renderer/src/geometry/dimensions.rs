@@ -51,6 +51,20 @@ pub fn sliced_tiles(
     PerspectiveDimensions { dimensions: DVec3::new(columns, rows, slices), ratio }
 }
 
+/// Square tiles in so many columns, rows and slices (Ortiz, step 1), and their side in pixels: the least whole number with
+/// which the columns fill the screen. A screen higher than the rows has as many as it takes, where his index runs on
+/// into the next slice.
+pub fn counted_tiles(
+    frustum: &Frustum,
+    [width, height]: [u32; 2],
+    counts: DVec3,
+) -> (f64, PerspectiveDimensions) {
+    let pixels = round_up(f64::from(width) / counts.x);
+    let rows = counts.y.max(round_up(f64::from(height) / pixels));
+    let ratio = (depth_span(frustum) / counts.z).exp_m1();
+    (pixels, PerspectiveDimensions { dimensions: DVec3::new(counts.x, rows, counts.z), ratio })
+}
+
 impl PerspectiveDimensions {
     /// The slices of a law, and their number: as many as these, or as many as the law says.
     pub fn by_law(self, law: SliceLaw, frustum: &Frustum) -> (Slices, DVec3) {
@@ -126,6 +140,20 @@ mod tests {
         assert_eq!(round_up(50.0001), 51.0);
         assert_eq!(round_up(1e-9), 1.0);
         assert_eq!(from_metres(DVec3::new(200.0, 112.5, 99.6), 4.0), DVec3::new(50.0, 29.0, 25.0));
+    }
+
+    #[test]
+    fn counted_tiles_are_square_and_fill_the_screen() {
+        let frustum = Frustum { x0: -1.6, x1: 1.6, y0: -0.9, y1: 0.9, z0: -100.0, z1: -0.3 };
+        let tiles = |resolution, counts: [f64; 3]| {
+            let (pixels, counts) = counted_tiles(&frustum, resolution, DVec3::from_array(counts));
+            (pixels, counts.dimensions.to_array())
+        };
+        assert_eq!(tiles([1920, 1080], [16.0, 9.0, 24.0]), (120.0, [16.0, 9.0, 24.0]));
+        assert_eq!(tiles([1366, 768], [16.0, 9.0, 24.0]), (86.0, [16.0, 9.0, 24.0]));
+        assert_eq!(tiles([640, 720], [16.0, 9.0, 24.0]), (40.0, [16.0, 18.0, 24.0]), "of an eye");
+        assert_eq!(tiles([320, 100], [16.0, 9.0, 1.0]), (20.0, [16.0, 9.0, 1.0]), "as many as said");
+        assert_eq!(tiles([8, 8], [16.0, 9.0, 2.0]), (1.0, [16.0, 9.0, 2.0]), "no pixel is divided");
     }
 
     proptest! {

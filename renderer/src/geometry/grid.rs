@@ -1,6 +1,6 @@
 //! A grid of clusters: from points to clusters and from clusters to their shapes.
 
-use super::{Frustum, Slices};
+use super::{Frustum, Slices, SphereTest};
 use crate::geometry::views::Pose;
 use glam::DVec3;
 
@@ -12,10 +12,19 @@ const RIM: f64 = 1e-9;
 pub enum CellShape {
     /// Cells are pieces of a frustum.
     Frustum,
+    /// Cells are pieces of a frustum, which can be tested as the boxes around them along the axes of their view.
+    BoxedFrustum,
     /// Cells are boxes along the axes.
     Box,
     /// Groups are models, in boxes along their own axes.
     Model,
+}
+
+impl CellShape {
+    /// Whether `test` asks boxes around the cells, which are kept for it.
+    pub fn keeps_boxes(self, test: SphereTest) -> bool {
+        self == Self::BoxedFrustum && test == SphereTest::Box
+    }
 }
 
 /// The shape of a grid, in clustering space.
@@ -145,9 +154,13 @@ impl Grid {
 
     /// Lowest and highest corner of the whole grid in clustering space.
     pub fn bounds(&self) -> (DVec3, DVec3) {
-        let last = self.dimensions.map(|count| count - 1);
+        self.range_bounds([0; 3], self.dimensions.map(|count| count - 1))
+    }
+
+    /// Lowest and highest corner, in clustering space, of the cells from one to another.
+    pub fn range_bounds(&self, first: [u32; 3], last: [u32; 3]) -> (DVec3, DVec3) {
         let corner = |corner: usize| -> [u32; 3] {
-            std::array::from_fn(|axis| if corner >> axis & 1 == 1 { last[axis] } else { 0 })
+            std::array::from_fn(|axis| if corner >> axis & 1 == 1 { last[axis] } else { first[axis] })
         };
         (0..8)
             .map(|i| self.cell_bounds(corner(i)))

@@ -24,8 +24,8 @@ mod volume;
 
 pub use cell_test::{CellTest, Plane, axis_box, half_space};
 pub use dimensions::{
-    PerspectiveDimensions, average_volume, from_metres, from_pixels, from_volume, side_in_tangents,
-    sliced_tiles,
+    PerspectiveDimensions, average_volume, counted_tiles, from_metres, from_pixels, from_volume,
+    side_in_tangents, sliced_tiles,
 };
 pub use displaced::{DisplacedVolume, displaced};
 pub use enclosing::{Enclosing, enclosing};

@@ -149,6 +149,18 @@ impl Slices {
         }
     }
 
+    /// The coordinate of one metre by the geometric laws, 0 by the others: with it a slice takes one logarithm, one product
+    /// and one sum (Ortiz).
+    pub fn bias(&self) -> f64 {
+        match self.law {
+            SliceLaw::Geometric | SliceLaw::Cubes => self.coordinate_of(1.0),
+            SliceLaw::SecondPlane { .. }
+            | SliceLaw::Linear
+            | SliceLaw::UniformNdc
+            | SliceLaw::UniformView => 0.0,
+        }
+    }
+
     /// Thickness of the relatively thinnest of `count` slices, over the depth at which it begins: that of the first or last.
     pub fn thinnest(&self, count: f64) -> f64 {
         let thickness = |slice: f64| self.depth_at(slice + 1.0) / self.depth_at(slice) - 1.0;
@@ -209,6 +221,20 @@ mod tests {
         assert!((0.0..1.0).contains(&slices.coordinate_of(4.99)));
     }
 
+    /// A logarithm in single precision, off by that part of what the Vulkan specification allows.
+    fn log2(value: f32, off: f32) -> f32 {
+        value.log2() + off * (3.0 * f32::EPSILON * value.log2().abs()).max(2f32.powi(-21))
+    }
+
+    /// As `slice_of` of cluster_space.glsl.
+    fn slice_of(depth: f32, coordinate: f32, allowed: f32, planes: &[f32]) -> usize {
+        let (last, plane) = ((planes.len() - 2) as f32, coordinate.round());
+        if (coordinate - plane).abs() < allowed && plane >= 1.0 && plane <= last {
+            return plane as usize - usize::from(depth < planes[plane as usize]);
+        }
+        coordinate.floor().clamp(0.0, last) as usize
+    }
+
     proptest! {
         #[test]
         fn a_plane_divides_its_slices(
@@ -228,6 +254,30 @@ mod tests {
             prop_assert!(slices.coordinate_of(near) > -1e-9);
             let behind_the_eye = slices.clamped_coordinate_of(-3.0);
             prop_assert!(behind_the_eye < 1.0 && !behind_the_eye.is_nan());
+        }
+
+        /// The slice is the one whose planes hold the depth, to the bit, by either formula, however far off a device's logarithm is
+        /// that keeps to the Vulkan specification.
+        #[test]
+        fn the_slice_is_that_of_the_planes_by_ratio_and_by_bias(
+            near in 0.001..2.0f64, far in 20.0..2000.0f64, count in 1..200u32, part in 0.0..1.0f64, beside in -2..=2i32,
+            at_plane: bool, off in -1.0..1.0f32,
+        ) {
+            let slices = slices(SliceLaw::Geometric, near, far, f64::from(count));
+            let planes: Vec<f32> = (0..=count).map(|plane| slices.depth_at(plane.into()) as f32).collect();
+            let coordinate = part * f64::from(count);
+            let coordinate = if at_plane { coordinate.round() } else { coordinate };
+            let depth = (slices.depth_at(coordinate) as f32).to_bits().saturating_add_signed(beside);
+            let depth = f32::from_bits(depth).clamp(planes[0], planes[count as usize]);
+            let [origin, step] = slices.on_device();
+            let (origin, scale, bias) = (origin as f32, (1.0 / step) as f32, slices.bias() as f32);
+            let expected = planes.partition_point(|plane| *plane <= depth).clamp(1, count as usize) - 1;
+            let by_ratio = log2(depth / origin, off) * scale;
+            let allowed = 2e-6 * (by_ratio.abs() + scale);
+            prop_assert_eq!(slice_of(depth, by_ratio, allowed, &planes), expected, "by ratio");
+            let by_bias = log2(depth, off) * scale + bias;
+            let allowed = 2e-6 * (by_bias.abs() + bias.abs() + scale);
+            prop_assert_eq!(slice_of(depth, by_bias, allowed, &planes), expected, "by bias");
         }
     }
 }

@@ -46,6 +46,8 @@ gpu_struct! {
         pub scale: [f32; 3],
         /// Size of a cell along each axis: the inverse of `scale`.
         pub cell: [f32; 3],
+        /// The slice coordinate of one metre by a geometric law.
+        pub slice_bias: f32,
         /// What is added to every light's radius, metres: covers rounding at cell boundaries.
         pub slack: f32,
         /// What is added instead of `slack` where it comes to more, per metre of the radius.
@@ -70,6 +72,16 @@ gpu_struct! {
         pub bounds_low: [f32; 3],
         /// 1024 over the extent of the grid's bounds along each axis, per metre.
         pub bounds_scale: [f32; 3],
+    }
+}
+
+gpu_struct! {
+    /// The box around a cell along the axes of clustering space.
+    pub struct ClusterBox in texels {
+        /// Lowest corner, metres.
+        pub low: [f32; 3],
+        /// Highest corner of the box, metres.
+        pub high: [f32; 3],
     }
 }
 

@@ -7,6 +7,8 @@ use crate::geometry::CellShape;
 
 /// What a size is called that is a number of slices.
 const SLICES: &str = "SLICES";
+/// Names of sizes that are whole numbers.
+const WHOLE: [&str; 3] = ["COLUMNS", "ROWS", SLICES];
 
 /// A kind of method: what is behind a name but for the sizes.
 #[derive(Debug)]
@@ -30,19 +32,30 @@ pub struct Kind {
     make: fn(&[f64]) -> Method,
 }
 
+/// What rows of the table begin from: a perspective grid for each view.
+const PERSPECTIVE: Kind = Kind {
+    name: "",
+    sizes: &[],
+    tuned: &[],
+    title: "",
+    about: "",
+    sharing: Sharing::Indi,
+    lookup: "clustered",
+    cells: Some(CellShape::Frustum),
+    make: |_| Method::AllLights,
+};
+
 /// Every kind of method. All serve transparent geometry, all views in stereo, and any number of samples (models: where fragments
 /// run for each).
-pub static KINDS: [Kind; 16] = [
+pub static KINDS: [Kind; 17] = [
     Kind {
         name: "indi-persp",
         sizes: &["PIXELS"],
         tuned: &[64.0],
         title: "Indi Persp",
         about: "a perspective grid for each view",
-        sharing: Sharing::Indi,
-        lookup: "clustered",
-        cells: Some(CellShape::Frustum),
         make: |sizes| Method::grid(Sharing::Indi, Space::Persp { pixels: sizes[0] }),
+        ..PERSPECTIVE
     },
     Kind {
         name: "encl-persp",
@@ -51,9 +64,8 @@ pub static KINDS: [Kind; 16] = [
         title: "Encl Persp",
         about: "one perspective grid on the frustum that encloses all views",
         sharing: Sharing::Encl,
-        lookup: "clustered",
-        cells: Some(CellShape::Frustum),
         make: |sizes| Method::grid(Sharing::Encl, Space::Persp { pixels: sizes[0] }),
+        ..PERSPECTIVE
     },
     Kind {
         name: "indi-ortho",
@@ -61,10 +73,9 @@ pub static KINDS: [Kind; 16] = [
         tuned: &[4.0],
         title: "Indi Ortho",
         about: "a grid of boxes for each view",
-        sharing: Sharing::Indi,
-        lookup: "clustered",
         cells: Some(CellShape::Box),
         make: |sizes| Method::grid(Sharing::Indi, Space::Ortho { metres: sizes[0] }),
+        ..PERSPECTIVE
     },
     Kind {
         name: "encl-ortho",
@@ -73,9 +84,9 @@ pub static KINDS: [Kind; 16] = [
         title: "Encl Ortho",
         about: "one grid of boxes around all views",
         sharing: Sharing::Encl,
-        lookup: "clustered",
         cells: Some(CellShape::Box),
         make: |sizes| Method::grid(Sharing::Encl, Space::Ortho { metres: sizes[0] }),
+        ..PERSPECTIVE
     },
     Kind {
         name: "indi-displ",
@@ -83,10 +94,8 @@ pub static KINDS: [Kind; 16] = [
         tuned: &[64.0, 32.0],
         title: "Indi Displ",
         about: "a perspective grid for each view, its apex moved back",
-        sharing: Sharing::Indi,
-        lookup: "clustered",
-        cells: Some(CellShape::Frustum),
         make: |sizes| displ(Sharing::Indi, sizes),
+        ..PERSPECTIVE
     },
     Kind {
         name: "encl-displ",
@@ -95,9 +104,8 @@ pub static KINDS: [Kind; 16] = [
         title: "Encl Displ",
         about: "one perspective grid on the frustum that encloses all views, its apex moved back",
         sharing: Sharing::Encl,
-        lookup: "clustered",
-        cells: Some(CellShape::Frustum),
         make: |sizes| displ(Sharing::Encl, sizes),
+        ..PERSPECTIVE
     },
     Kind {
         name: "tiled",
@@ -105,10 +113,8 @@ pub static KINDS: [Kind; 16] = [
         tuned: &[16.0],
         title: "Tiled",
         about: "tiles of each view's screen, from the near to the far plane",
-        sharing: Sharing::Indi,
-        lookup: "clustered",
-        cells: Some(CellShape::Frustum),
         make: |sizes| Method::grid(Sharing::Indi, Space::Tiled { pixels: sizes[0] }),
+        ..PERSPECTIVE
     },
     Kind {
         name: "t-i",
@@ -116,10 +122,8 @@ pub static KINDS: [Kind; 16] = [
         tuned: &[28.0],
         title: "T-I",
         about: "tiles of each view's screen, all of them with lists",
-        sharing: Sharing::Indi,
-        lookup: "clustered",
-        cells: Some(CellShape::Frustum),
         make: |sizes| tiles(Bounds::Implicit, sizes),
+        ..PERSPECTIVE
     },
     Kind {
         name: "t-e",
@@ -127,10 +131,8 @@ pub static KINDS: [Kind; 16] = [
         tuned: &[28.0],
         title: "T-E",
         about: "tiles of each view's screen, each with the depths of its samples",
-        sharing: Sharing::Indi,
-        lookup: "clustered",
-        cells: Some(CellShape::Frustum),
         make: |sizes| tiles(Bounds::Measured, sizes),
+        ..PERSPECTIVE
     },
     Kind {
         name: "dc-i",
@@ -138,10 +140,8 @@ pub static KINDS: [Kind; 16] = [
         tuned: &[128.0, 64.0],
         title: "DC-I",
         about: "tiles of each view's screen in so many slices, all clusters with lists",
-        sharing: Sharing::Indi,
-        lookup: "clustered",
-        cells: Some(CellShape::Frustum),
         make: |sizes| sliced((Clusters::All, Bounds::Implicit), sizes),
+        ..PERSPECTIVE
     },
     Kind {
         name: "dc-e",
@@ -149,10 +149,8 @@ pub static KINDS: [Kind; 16] = [
         tuned: &[64.0, 40.0],
         title: "DC-E",
         about: "tiles of each view's screen in so many slices, each cluster with the box of its samples",
-        sharing: Sharing::Indi,
-        lookup: "clustered",
-        cells: Some(CellShape::Frustum),
         make: |sizes| sliced((Clusters::All, Bounds::Measured), sizes),
+        ..PERSPECTIVE
     },
     Kind {
         name: "sc-i",
@@ -160,10 +158,8 @@ pub static KINDS: [Kind; 16] = [
         tuned: &[48.0, 40.0],
         title: "SC-I",
         about: "tiles of each view's screen in so many slices, visible clusters with lists",
-        sharing: Sharing::Indi,
-        lookup: "clustered",
-        cells: Some(CellShape::Frustum),
         make: |sizes| sliced((Clusters::Visible, Bounds::Implicit), sizes),
+        ..PERSPECTIVE
     },
     Kind {
         name: "sc-e",
@@ -171,10 +167,21 @@ pub static KINDS: [Kind; 16] = [
         tuned: &[48.0, 40.0],
         title: "SC-E",
         about: "tiles of each view's screen in so many slices, visible clusters with lists and the box of their samples",
-        sharing: Sharing::Indi,
-        lookup: "clustered",
-        cells: Some(CellShape::Frustum),
         make: |sizes| sliced((Clusters::Visible, Bounds::Measured), sizes),
+        ..PERSPECTIVE
+    },
+    Kind {
+        name: "ortiz",
+        sizes: &WHOLE,
+        tuned: &[16.0, 9.0, 24.0],
+        title: "Ortiz",
+        about: "so many square tiles and slices of each view's screen, whatever its pixels, tested as the boxes around them",
+        cells: Some(CellShape::BoxedFrustum),
+        make: |sizes| {
+            let [columns, rows, slices] = [sizes[0], sizes[1], sizes[2]];
+            Method::grid(Sharing::Indi, Space::Counted { columns, rows, slices })
+        },
+        ..PERSPECTIVE
     },
     Kind {
         name: "g",
@@ -228,9 +235,9 @@ fn sliced((clusters, bounds): (Clusters, Bounds), sizes: &[f64]) -> Method {
 }
 
 impl Kind {
-    /// Whether these are sizes of the kind: as many as [`Self::sizes`] names, and whole numbers of slices.
+    /// Whether these are sizes of the kind: as many as [`Self::sizes`] names, and whole numbers of what is counted.
     pub fn takes(&self, sizes: &[f64]) -> bool {
-        let whole = |(name, size): (&&str, &f64)| *name != SLICES || size.fract() == 0.0;
+        let whole = |(name, size): (&&str, &f64)| !WHOLE.contains(name) || size.fract() == 0.0;
         sizes.len() == self.sizes.len() && self.sizes.iter().zip(sizes).all(whole)
     }
 

@@ -1,7 +1,8 @@
 //! The ways of finding the lights of a fragment. [`KINDS`] is the one table of them: name, sizes, and what each can do.
 //!
 //! A method's name is its identity everywhere: on the command line, in configurations, as run directory and as row of every
-//! table. `indi-persp-64`, `encl-ortho-4`, `indi-displ-64-32`, `tiled-16`, `sc-e-48-40`, `g-20`, `m`, `all-lights`.
+//! table. `indi-persp-64`, `encl-ortho-4`, `indi-displ-64-32`, `tiled-16`, `sc-e-48-40`, `ortiz-16-9-24`, `g-20`, `m`,
+//! `all-lights`.
 //!
 //! ```text
 //! plan (pure, f64) -> resources -> record (passes) -> lookup/<name>.glsl (shading) -> twin (CPU)
@@ -127,6 +128,11 @@ impl Method {
     /// Whether a law says where slices begin.
     pub fn has_slices(&self) -> bool {
         matches!(self, Self::Grid(grid) if grid.space.has_slices())
+    }
+
+    /// Whether a fragment's geometric slice is found by adding to a logarithm: see [`Space::adds_bias`].
+    pub fn adds_bias(&self) -> bool {
+        matches!(self, Self::Grid(grid) if grid.space.adds_bias())
     }
 
     /// What a clustering's buffers hold at first, for grids of up to `clusters` clusters; nothing without lists.

@@ -1,5 +1,5 @@
 //! A method's name: the name of its kind and its sizes, as plain decimal numbers: `indi-persp-64`, `encl-ortho-0.5`,
-//! `indi-displ-64-32`, `tiled-16`, `sc-e-48-40`, `g-20`, `m`, `all-lights`.
+//! `indi-displ-64-32`, `tiled-16`, `sc-e-48-40`, `ortiz-16-9-24`, `g-20`, `m`, `all-lights`.
 
 use super::{KINDS, Kind, Method};
 use crate::{Error, Result};
@@ -21,7 +21,7 @@ impl FromStr for Method {
             let patterns = KINDS.iter().map(Kind::pattern).collect::<Vec<_>>().join(", ");
             let nearest = nearest(name);
             Error::input(format!(
-                "method '{name}' is not known: use one of {patterns}, with sizes above 0, of slices whole ones; did you mean '{nearest}'?"
+                "method '{name}' is not known: use one of {patterns}, with sizes above 0, of columns, rows and slices whole ones; did you mean '{nearest}'?"
             ))
         })
     }
@@ -71,6 +71,7 @@ mod tests {
             "dc-i-12.5-64",
             "g-20",
             "m",
+            "ortiz-16-9-24",
             "all-lights",
         ] {
             assert_eq!(name.parse::<Method>().unwrap().to_string(), name);
@@ -99,6 +100,10 @@ mod tests {
             ("g-0", "'g-20'"),
             ("G-8", "'g-8'"),
             ("m-2", "'m'"),
+            ("ortiz-16-9", "'ortiz-16-9-24'"),
+            ("ortiz-16-9-0", "'ortiz-16-9-24'"),
+            ("ortiz-16.5-9-24", "'ortiz-16-9-24'"),
+            ("ortis-8-4-12", "'ortiz-8-4-12'"),
             ("", "did you mean"),
         ] {
             let message = wrong.parse::<Method>().unwrap_err().to_string();

@@ -6,6 +6,7 @@ use super::rows::{
     ClusteringRow, FrameRow, HistogramRow, KINDS, LIGHTS_PER_FRAGMENT, MemoryRow, Row, TimingRow,
 };
 use super::saved::has_memory;
+use super::stages::is_everyones;
 use super::strict::{Line, each_row, refuse, shown};
 use crate::Result;
 use crate::measure::Purpose;
@@ -166,7 +167,8 @@ fn check_memory(directory: &Path, announced: Option<u64>) -> Result<()> {
     }
 }
 
-/// Every temporal run of every frame has the stages of the first; a device without timestamps gave none at all.
+/// Every temporal run of every frame has the stages of the first, but for those that follow changes alone; a device without
+/// timestamps gave none at all.
 fn check_timings(directory: &Path, frames: &[FrameRow], runs: u32) -> Result<()> {
     let mut stages: BTreeMap<(u32, u32), Vec<String>> = BTreeMap::new();
     each_row(directory, |line, row: TimingRow| {
@@ -182,7 +184,10 @@ fn check_timings(directory: &Path, frames: &[FrameRow], runs: u32) -> Result<()>
         Ok(())
     })?;
     let refuse = |problem: String| Err(refuse_table::<TimingRow>(directory, problem));
-    let Some(first) = stages.values().next() else {
+    let lasting = |stages: &Vec<String>| -> Vec<String> {
+        stages.iter().filter(|stage| is_everyones(stage)).cloned().collect()
+    };
+    let Some(first) = stages.values().next().map(lasting) else {
         return match frames.iter().any(FrameRow::is_timed) {
             true => refuse("holds no times, and frames.csv does".into()),
             false => Ok(()),
@@ -192,7 +197,7 @@ fn check_timings(directory: &Path, frames: &[FrameRow], runs: u32) -> Result<()>
         return refuse(format!("times frame {}, for which frames.csv has no gpu_ms_frame", row.frame));
     }
     for place in (0..runs).flat_map(|run| frames.iter().map(move |row| (run, row.frame))) {
-        if stages.get(&place) != Some(first) {
+        if stages.get(&place).map(lasting).as_ref() != Some(&first) {
             let (run, frame) = place;
             return refuse(format!("the stages of run {run}, frame {frame} are not all there"));
         }

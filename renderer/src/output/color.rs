@@ -69,6 +69,11 @@ pub fn cluster_color([x, y, z]: [u32; 3]) -> [u8; 3] {
     [[230, 159, 0], [86, 180, 233], [0, 158, 115]][((x + y + z) % 3) as usize]
 }
 
+/// The slice of a cluster as colour: the three low bits of its index as red, green and blue (Ortiz).
+pub fn slice_color([_, _, slice]: [u32; 3]) -> [u8; 3] {
+    [0, 1, 2].map(|bit| if slice >> bit & 1 == 1 { 255 } else { 0 })
+}
+
 fn to_byte(fraction: f64) -> u8 {
     (fraction.clamp(0.0, 1.0) * 255.0).round() as u8
 }
@@ -103,6 +108,16 @@ mod tests {
         assert_eq!(cubehelix(0.75), [199, 179, 237]);
         assert_eq!(cubehelix(1.0), [255, 255, 255]);
         assert_eq!(cubehelix(7.0), [255, 255, 255]);
+    }
+
+    #[test]
+    fn slices_are_the_three_low_bits_of_their_index() {
+        assert_eq!(slice_color([7, 7, 0]), [0, 0, 0]);
+        assert_eq!(
+            [1, 2, 4].map(|slice| slice_color([0, 0, slice])),
+            [[255, 0, 0], [0, 255, 0], [0, 0, 255]]
+        );
+        assert_eq!(slice_color([0, 0, 8 + 6]), [0, 255, 255]);
     }
 
     #[test]

@@ -40,12 +40,12 @@ mod tests;
 pub(crate) use atomic::cause;
 pub use atomic::{prepare_file, prepare_output, remove_abandoned, write_whole};
 pub use check::check_run;
-pub use color::{cluster_color, cubehelix, tone_map};
+pub use color::{cluster_color, cubehelix, slice_color, tone_map};
 pub(crate) use color::{srgb_decode, srgb_encode};
 pub use image_exr::write_exr;
 pub use manifest::{DeviceInfo, MANIFEST, Manifest, RUN_FORMAT, Source, git_revision, rfc3339_utc};
 pub use preview::write_png;
-pub use preview::{cluster_preview, heat_preview, image_preview, light_preview, write_previews};
+pub use preview::{heat_preview, image_preview, light_preview, write_previews};
 pub use rows::FrameRow;
 pub(crate) use rows::{
     ClusteringRow, FRAGMENTS_PER_CLUSTER, HistogramRow, LIGHTS_PER_CLUSTER, MemoryRow, Row, TimingRow,

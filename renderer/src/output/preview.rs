@@ -1,7 +1,7 @@
 //! PNG previews of one frame, all views side by side.
 
 use super::atomic::write_whole;
-use super::color::{BACKGROUND, blend, cluster_color, cubehelix, heat, tone_map};
+use super::color::{BACKGROUND, blend, cluster_color, cubehelix, heat, slice_color, tone_map};
 use crate::Result;
 use crate::geometry::cell_at;
 use crate::measure::ViewPixels;
@@ -9,8 +9,8 @@ use image::{ImageFormat, Rgb, RgbImage};
 use std::io;
 use std::path::Path;
 
-/// Writes `stem.png` (tone-mapped), `stem_lights.png` (see [`light_preview`]), `stem_heat.png` (see [`heat_preview`]) and
-/// `stem_clusters.png`.
+/// Writes `stem.png` (tone-mapped), `stem_lights.png` (see [`light_preview`]), `stem_heat.png` (see [`heat_preview`]),
+/// `stem_clusters.png` and, of grids that have several slices, `stem_slices.png`.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -20,12 +20,15 @@ pub fn write_previews(
     views: &[ViewPixels],
     most_lights: Option<u32>,
 ) -> Result<()> {
-    let previews = [
+    let mut previews = vec![
         ("", image_preview(views)),
         ("_lights", light_preview(views, most_lights)),
         ("_heat", heat_preview(views)),
-        ("_clusters", cluster_preview(views)),
+        ("_clusters", cluster_preview(views, cluster_color)),
     ];
+    if views.iter().any(|view| view.dimensions[2] > 1) {
+        previews.push(("_slices", cluster_preview(views, slice_color)));
+    }
     for (suffix, preview) in previews {
         write_png(&directory.join(format!("{stem}{suffix}.png")), &preview)?;
     }
@@ -79,11 +82,11 @@ pub fn light_preview(views: &[ViewPixels], most_lights: Option<u32>) -> RgbImage
     })
 }
 
-/// Clusters as colour: the sum of their indices modulo 3, dark where there is none.
-pub fn cluster_preview(views: &[ViewPixels]) -> RgbImage {
+/// Clusters as colour, dark where there is none.
+fn cluster_preview(views: &[ViewPixels], color: fn([u32; 3]) -> [u8; 3]) -> RgbImage {
     side_by_side(views, |view, pixel| match view.cluster_index[pixel] {
         u32::MAX => BACKGROUND,
-        index => cluster_color(cell_at(index, view.dimensions)),
+        index => color(cell_at(index, view.dimensions)),
     })
 }
 
@@ -152,10 +155,22 @@ mod tests {
         assert_eq!(clusters.get_pixel(3, 0).0, [24, 24, 24]);
         assert_eq!(clusters.get_pixel(1, 0).0, cluster_color([1, 0, 0]));
         assert_eq!(clusters.get_pixel(3, 1).0, cluster_color([1, 1, 0]));
+        assert!(!dir.path().join("000300_slices.png").exists(), "a grid of one slice");
         let [r, g, b, _] = left.color[5].map(|channel| channel.to_f32());
         assert_eq!(read("000300.png").get_pixel(2, 1).0, tone_map([r, g, b]));
         for other in ["lights", "heat"] {
             assert_eq!(read(&format!("000300_{other}.png")).dimensions(), (6, 2));
         }
+    }
+
+    #[test]
+    fn slices_are_shown_where_there_are_several() {
+        let dir = tempfile::tempdir().unwrap();
+        let pixels = ViewPixels { dimensions: [2, 1, 3], ..view("mono", 3, 2) };
+        write_previews(dir.path(), "000007", &[pixels], None).unwrap();
+        let slices = image::open(dir.path().join("000007_slices.png")).unwrap().to_rgb8();
+        let colors: Vec<[u8; 3]> = slices.pixels().map(|pixel| pixel.0).collect();
+        let [red, green] = [[255, 0, 0], [0, 255, 0]];
+        assert_eq!(colors, [[24, 24, 24], [0; 3], red, red, green, green]);
     }
 }

@@ -26,6 +26,14 @@ const OFFSETS: &str = "frame/cluster/light_offsets";
 /// Writing of the light lists.
 pub const ASSIGNING: [&str; 1] = ["frame/cluster/assign_lights"];
 
+/// What frames do only where that which it is made of has changed.
+const ON_CHANGE: &str = "frame/cluster/build_boxes";
+
+/// Whether every frame has the stage with this path if one has.
+pub(super) fn is_everyones(path: &str) -> bool {
+    !kind(path).starts_with(ON_CHANGE)
+}
+
 /// Whether the stage with this path lies between lights and light lists: counting, offsets, writing.
 pub fn makes_lists(path: &str) -> bool {
     let kind = kind(path);

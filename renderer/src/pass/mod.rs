@@ -5,13 +5,15 @@ mod access;
 mod compute;
 mod declared;
 mod recorder;
+mod scope_tree;
 mod transfer;
 
 pub use crate::gpu_interface::Push;
 pub use access::{Access, Use};
 pub use compute::{DepthImage, Dispatch, Size};
 pub use declared::Declared;
-pub use recorder::{Faults, FrameTracker, Recorder, ScopeName, ScopeSpan, ScopeTree, Timed, Timestamps};
+pub use recorder::{Faults, FrameTracker, Recorder, ScopeSpan, ScopeTime, Timed, Timestamps};
+pub use scope_tree::{ScopeId, ScopeName, ScopeTree};
 pub use transfer::BufferCopy;
 
 #[cfg(test)]

@@ -1,41 +1,12 @@
 //! The recorder: labels, timestamp scopes and barriers of one frame's commands.
 
 use super::access::{Access, Tracker};
-use crate::vk::{Context, c_string};
+use super::scope_tree::{ScopeId, ScopeName, ScopeTree};
+use crate::vk::Context;
 use ash::vk;
 use std::cell::Cell;
-use std::ffi::CString;
-use std::fmt;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-
-/// Name of a stage; `cluster[0]` where it has an index.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ScopeName<'n> {
-    stem: &'n str,
-    index: Option<u32>,
-}
-
-impl<'n> From<&'n str> for ScopeName<'n> {
-    fn from(stem: &'n str) -> Self {
-        Self { stem, index: None }
-    }
-}
-
-impl<'n> From<(&'n str, usize)> for ScopeName<'n> {
-    fn from((stem, index): (&'n str, usize)) -> Self {
-        Self { stem, index: Some(index as u32) }
-    }
-}
-
-impl fmt::Display for ScopeName<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self.index {
-            Some(index) => write!(f, "{}[{index}]", self.stem),
-            None => f.write_str(self.stem),
-        }
-    }
-}
 
 /// Which scopes get timestamps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,58 +19,6 @@ pub enum Timed {
     Passes,
 }
 
-#[derive(Debug)]
-struct Scope {
-    stem: String,
-    index: Option<u32>,
-    /// Position of the enclosing scope.
-    parent: Option<usize>,
-    path: String,
-    /// What tools for captures show.
-    label: CString,
-}
-
-/// The stages of a frame in execution order. It is built by the first frame and then only compared, so that
-/// later frames allocate nothing.
-#[derive(Debug, Default)]
-pub struct ScopeTree {
-    scopes: Vec<Scope>,
-}
-
-impl ScopeTree {
-    /// Paths such as `frame/cluster[0]/count_lights`, in execution order, parents first.
-    pub fn paths(&self) -> impl ExactSizeIterator<Item = &str> {
-        self.scopes.iter().map(|scope| scope.path.as_str())
-    }
-
-    /// The scope at `position`, made (and what followed it dropped) where it is not the one of the last frame.
-    fn enter(&mut self, position: usize, name: ScopeName, parent: Option<usize>) {
-        let known = self.scopes.get(position).is_some_and(|s| s.is_called(name) && s.parent == parent);
-        if known {
-            return;
-        }
-        self.scopes.truncate(position);
-        let label = name.to_string();
-        let path = match parent {
-            Some(parent) => format!("{}/{label}", self.scopes[parent].path),
-            None => label.clone(),
-        };
-        let ScopeName { stem, index } = name;
-        self.scopes.push(Scope { stem: stem.to_owned(), index, parent, path, label: c_string(&label) });
-    }
-
-    /// How many of the first `opened` scopes are children of `parent` with this stem.
-    fn count(&self, opened: usize, stem: &str, parent: Option<usize>) -> usize {
-        self.scopes[..opened].iter().filter(|scope| scope.parent == parent && scope.stem == stem).count()
-    }
-}
-
-impl Scope {
-    fn is_called(&self, name: ScopeName) -> bool {
-        self.stem == name.stem && self.index == name.index
-    }
-}
-
 /// Timestamp queries of one frame in flight. Scopes that begin or end with no command between share one.
 pub struct Timestamps {
     context: Arc<Context>,
@@ -109,13 +28,28 @@ pub struct Timestamps {
     places: Vec<[usize; 2]>,
     /// Queries written in that frame.
     written: usize,
-    /// When recording of each scope began, and how long it took.
+    /// The scopes of that frame, in execution order, parents first.
+    scopes: Vec<ScopeId>,
+    /// When recording of each of them began, and how long it took.
     cpu: Vec<(Instant, Duration)>,
+}
+
+/// How long one scope took.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ScopeTime {
+    /// Which scope it was.
+    pub scope: ScopeId,
+    /// Milliseconds on the device; NaN without timestamps.
+    pub gpu_ms: f64,
+    /// Milliseconds that recording it took.
+    pub cpu_ms: f64,
 }
 
 /// When one scope ran.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ScopeSpan {
+    /// Which scope it was.
+    pub scope: ScopeId,
     /// Start and end in ticks of the device's clock; `None` without timestamps.
     pub gpu_ticks: Option<[u64; 2]>,
     /// Time on the host when the recording of the scope began.
@@ -145,13 +79,14 @@ impl Timestamps {
             values: vec![0; 2 * scopes],
             places: Vec::with_capacity(scopes),
             written: 0,
+            scopes: Vec::with_capacity(scopes),
             cpu: Vec::with_capacity(scopes),
         })
     }
 
-    /// (GPU, CPU) milliseconds of each scope of the last frame, in execution order. Its frame must have ended, so
-    /// that nothing is waited for; scopes without timestamps have a GPU time of NaN.
-    pub fn read(&mut self) -> crate::Result<impl ExactSizeIterator<Item = (f64, f64)> + '_> {
+    /// How long each scope of the last frame took, in execution order. Its frame must have ended, so that nothing is
+    /// waited for.
+    pub fn read(&mut self) -> crate::Result<impl ExactSizeIterator<Item = ScopeTime> + '_> {
         let values = &mut self.values[..self.written];
         if !values.is_empty() {
             let flags = vk::QueryResultFlags::TYPE_64;
@@ -165,15 +100,20 @@ impl Timestamps {
         Ok(self.spans().map(move |span| {
             let milliseconds =
                 |[start, end]: [u64; 2]| (end.wrapping_sub(start) & mask) as f64 * period * 1e-6;
-            (span.gpu_ticks.map_or(f64::NAN, milliseconds), span.cpu_time.as_secs_f64() * 1e3)
+            ScopeTime {
+                scope: span.scope,
+                gpu_ms: span.gpu_ticks.map_or(f64::NAN, milliseconds),
+                cpu_ms: span.cpu_time.as_secs_f64() * 1e3,
+            }
         }))
     }
 
     /// When each scope ran of the frame that [`Self::read`] read last, in execution order.
     pub fn spans(&self) -> impl ExactSizeIterator<Item = ScopeSpan> + '_ {
-        self.cpu.iter().enumerate().map(|(scope, &(cpu_start, cpu_time))| {
-            let gpu_ticks = self.places.get(scope).map(|ends| ends.map(|query| self.values[query]));
-            ScopeSpan { gpu_ticks, cpu_start, cpu_time }
+        let scopes = self.scopes.iter().zip(&self.cpu).enumerate();
+        scopes.map(|(position, (&scope, &(cpu_start, cpu_time)))| {
+            let gpu_ticks = self.places.get(position).map(|ends| ends.map(|query| self.values[query]));
+            ScopeSpan { scope, gpu_ticks, cpu_start, cpu_time }
         })
     }
 }
@@ -195,8 +135,7 @@ pub struct Recorder<'a> {
     timestamps: &'a mut Timestamps,
     tracker: &'a mut FrameTracker,
     timed: Timed,
-    opened: usize,
-    current: Option<usize>,
+    current: Option<ScopeId>,
 }
 
 /// Keeps the barrier tracker's memory from frame to frame.
@@ -229,6 +168,7 @@ impl<'a> Recorder<'a> {
         tracker.tracker.begin_frame();
         timestamps.places.clear();
         timestamps.written = 0;
+        timestamps.scopes.clear();
         timestamps.cpu.clear();
         let queries = timestamps.values.len() as u32;
         unsafe { context.device.cmd_reset_query_pool(commands, timestamps.pool, 0, queries) };
@@ -240,7 +180,6 @@ impl<'a> Recorder<'a> {
             timestamps,
             tracker,
             timed,
-            opened: 0,
             current: None,
         };
         recorder.full_barrier();
@@ -255,13 +194,13 @@ impl<'a> Recorder<'a> {
 
     /// Runs `body` as a stage: labelled, timed, child of the stage that is open.
     pub fn scope<'n, R>(&mut self, name: impl Into<ScopeName<'n>>, body: impl FnOnce(&mut Self) -> R) -> R {
-        let position = self.opened;
+        let position = self.timestamps.scopes.len();
         assert!(2 * position < self.timestamps.values.len(), "a frame has more stages than queries");
-        self.opened += 1;
-        self.tree.enter(position, name.into(), self.current);
-        let outer = self.current.replace(position);
+        let scope = self.tree.enter(name.into(), self.current, self.timestamps.scopes.last().copied());
+        self.timestamps.scopes.push(scope);
+        let outer = self.current.replace(scope);
         let timed = self.timed != Timed::Frame || position == 0;
-        self.context.begin_label(self.commands, &self.tree.scopes[position].label);
+        self.context.begin_label(self.commands, self.tree.label(scope));
         if timed {
             let begin = self.timestamp();
             self.timestamps.places.push([begin; 2]);
@@ -283,7 +222,7 @@ impl<'a> Recorder<'a> {
         if self.timed != Timed::Passes {
             return body(self);
         }
-        let number = self.tree.count(self.opened, name, self.current);
+        let number = self.tree.count(&self.timestamps.scopes, name, self.current);
         self.scope((name, number), body);
     }
 

@@ -13,7 +13,7 @@
 use super::handles::{LightLists, Lights, VisibleClusters};
 use super::inputs::Frame;
 use super::scan::group_packets;
-use crate::assign::Assigner;
+use crate::assign::{Assigner, ClusterBounds};
 use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::gpu_interface::{
     ASSIGN_WORKGROUP, DISPATCH_GROUPS, DISPATCH_LISTS, DISPATCH_MASKED, DISPATCH_MEET, DISPATCH_MEET_AGAIN,
@@ -102,8 +102,16 @@ fn meet(
         Assigner::Hierarchy => set(&[B::TreeVolumes, B::TreeLights, B::LightNodes]),
         Assigner::Scatter => set(&[B::LightVolumes, B::Groups, B::PacketGroups, B::GroupLights]),
     };
-    let reads = reads | lights | set(&[B::VisibleClusters, B::ClusterBounds]);
+    let reads = reads | lights | set(&[B::VisibleClusters, B::ClusterBounds]) | boxes(frame);
     indirect(r, frame, visible, dispatch, (reads, writes));
+}
+
+/// The boxes around cells, where a cluster's cell is tested.
+fn boxes(frame: &Frame) -> BufferSet {
+    match frame.bounds {
+        ClusterBounds::Cell => set(&[B::ClusterBoxes]),
+        ClusterBounds::Depth | ClusterBounds::Box => BufferSet::EMPTY,
+    }
 }
 
 /// Runs a pipeline with a size that the device wrote.

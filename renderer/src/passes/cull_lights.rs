@@ -27,7 +27,8 @@ pub fn cull_lights(r: &mut Recorder, frame: &Frame, _lights: Lights, visible: Vi
         let clusters = set(&[B::State, B::VisibleClusters, B::ClusterBounds]);
         let marked = blocks | set(&[B::Groups]);
         run(r, &pipelines.mark_blocks, Size::Indirect(DISPATCH_LISTS), (clusters, marked));
-        run(r, &pipelines.cull_lights, by_block, (lights | blocks, bits));
+        let spanned = blocks | set(&[B::ClusterBoxes]);
+        run(r, &pipelines.cull_lights, by_block, (lights | spanned, bits));
         let candidates = set(&[B::LightVolumes, B::Candidates, B::State, B::Dispatches]);
         run(r, &pipelines.list_candidates, by_block, (lights | bits, candidates));
     });

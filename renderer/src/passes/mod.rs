@@ -4,6 +4,7 @@
 
 pub mod assign;
 pub mod bounds;
+pub mod build_boxes;
 pub mod clay;
 pub mod cull;
 pub mod cull_lights;

@@ -23,6 +23,8 @@ pub struct Variant {
     pub bounds: ClusterBounds,
     /// Where slices begin.
     pub slices: SliceLaw,
+    /// Whether a geometric slice is found by adding a constant to a logarithm.
+    pub adds_bias: bool,
     /// Samples per pixel.
     pub samples: u32,
     /// Where instances are culled.
@@ -102,7 +104,7 @@ impl Variant {
     /// The defines of every shader of this variant.
     pub(super) fn defines(&self) -> Defines {
         let space = match self.cells {
-            Some(CellShape::Frustum) | None => "SPACE_PERSPECTIVE",
+            Some(CellShape::Frustum | CellShape::BoxedFrustum) | None => "SPACE_PERSPECTIVE",
             Some(CellShape::Box) => "SPACE_ORTHOGRAPHIC",
             Some(CellShape::Model) => "SPACE_MODEL",
         };
@@ -120,10 +122,27 @@ impl Variant {
             .with("SPACE", space)
             .with("CLUSTERS", clusters)
             .with("BOUNDS", bounds)
-            .with("SLICES", slices_define(self.slices))
+            .with("SLICES", self.slices_define())
             .with("SAMPLES", self.samples)
             .with("PER_SAMPLE", u32::from(self.per_sample()))
             .with("COUNTERS", u32::from(self.counting))
+    }
+
+    /// The two geometric laws differ in numbers alone.
+    fn slices_define(&self) -> &'static str {
+        match self.slices {
+            SliceLaw::Geometric | SliceLaw::Cubes if self.adds_bias => "SLICES_GEOMETRIC_BIASED",
+            SliceLaw::Geometric | SliceLaw::Cubes => "SLICES_GEOMETRIC",
+            SliceLaw::SecondPlane { .. } => "SLICES_SECOND_PLANE",
+            SliceLaw::Linear => "SLICES_LINEAR",
+            SliceLaw::UniformNdc => "SLICES_UNIFORM_NDC",
+            SliceLaw::UniformView => "SLICES_UNIFORM_VIEW",
+        }
+    }
+
+    /// Whether the boxes around the pieces of a frustum are tested, as they are kept.
+    pub(super) fn is_boxed(&self) -> bool {
+        self.cells.is_some_and(|cells| cells.keeps_boxes(self.test))
     }
 
     /// Definitions for shaders that build lists.
@@ -141,8 +160,8 @@ impl Variant {
         let boxes = self.cells == Some(CellShape::Box);
         let nearest = matches!(self.test, SphereTest::Exact | SphereTest::Box);
         // Planes are cheaper than the nearest point, but for boxes.
-        let half_spaces =
-            self.test.asks(Separators::HALF_SPACES) || nearest && self.cells == Some(CellShape::Frustum);
+        let pieces = matches!(self.cells, Some(CellShape::Frustum | CellShape::BoxedFrustum));
+        let half_spaces = self.test.asks(Separators::HALF_SPACES) || nearest && pieces && !self.is_boxed();
         let [edges, nearest_vertex, normals, vertices] =
             [Separators::EDGES, Separators::NEAREST_VERTEX, Separators::NORMALS, Separators::VERTICES]
                 .map(|separators| self.test.asks(separators));
@@ -153,18 +172,8 @@ impl Variant {
             .with("TEST_SAT_P", u32::from(normals))
             .with("TEST_SAT_V", u32::from(vertices))
             .with("TEST_NEAREST", u32::from(nearest))
+            .with("BOXED", u32::from(self.is_boxed()))
             .with("TEST_BOUNDED", u32::from(self.test.is_bounded(boxes) && !self.has_models()))
-    }
-}
-
-/// The two geometric laws differ in numbers alone.
-fn slices_define(law: SliceLaw) -> &'static str {
-    match law {
-        SliceLaw::Geometric | SliceLaw::Cubes => "SLICES_GEOMETRIC",
-        SliceLaw::SecondPlane { .. } => "SLICES_SECOND_PLANE",
-        SliceLaw::Linear => "SLICES_LINEAR",
-        SliceLaw::UniformNdc => "SLICES_UNIFORM_NDC",
-        SliceLaw::UniformView => "SLICES_UNIFORM_VIEW",
     }
 }
 

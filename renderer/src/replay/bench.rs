@@ -228,8 +228,7 @@ impl TimedFrame<'_> {
 
     fn time(&self, session: &mut Session, engine: &mut Engine) -> Result<f64> {
         self.render(session, engine)?;
-        let times: Vec<f64> =
-            session.frame_slots[SLOT].timestamps.read()?.map(|(gpu_ms, _)| gpu_ms).collect();
-        Ok(engine.tree.paths().zip(times).filter(|(path, _)| makes_lists(path)).map(|(_, ms)| ms).sum())
+        let times = session.frame_slots[SLOT].timestamps.read()?;
+        Ok(times.filter(|time| makes_lists(engine.tree.path(time.scope))).map(|time| time.gpu_ms).sum())
     }
 }

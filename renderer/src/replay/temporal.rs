@@ -8,12 +8,14 @@ use crate::clustering::FRAME_SLOTS;
 use crate::engine::{Engine, FramePlan, Session, nothing};
 use crate::lights::LightSource;
 use crate::measure::{FrameTimes, StageTime};
+use crate::pass::ScopeTime;
 
-/// (GPU, CPU) milliseconds of every stage of every frame, in rendering order.
+/// How long every stage of every frame took, in rendering order.
 #[derive(Default)]
 struct Samples {
-    frames: Vec<u32>,
-    times: Vec<(f64, f64)>,
+    /// Each frame, and where its times end.
+    frames: Vec<(u32, usize)>,
+    times: Vec<ScopeTime>,
 }
 
 /// Renders all frames once and times them; the tracer keeps what it wants of them.
@@ -66,8 +68,8 @@ fn collect(
     if engine.overflowed(session, slot) {
         return engine.grow_if_needed(session, slot, plan.frame);
     }
-    samples.frames.push(plan.frame);
     samples.times.extend(session.frame_slots[slot].timestamps.read()?);
+    samples.frames.push((plan.frame, samples.times.len()));
     tracer.keep(run, plan.frame, session.frame_slots[slot].timestamps.spans());
     Ok(false)
 }
@@ -83,21 +85,19 @@ fn abandon(session: &Session, in_flight: &mut [Option<usize>; FRAME_SLOTS]) -> R
 
 impl Samples {
     fn into_frames(self, engine: &Engine, run: u32) -> Vec<FrameTimes> {
-        let paths: Vec<&str> = engine.tree.paths().collect();
-        self.frames
-            .iter()
-            .zip(self.times.chunks(paths.len().max(1)))
-            .map(|(&frame, times)| FrameTimes {
-                run,
-                frame,
-                stages: paths
-                    .iter()
-                    .zip(times)
-                    // Stages that got no timestamps were not timed.
-                    .filter(|(_, (gpu_ms, _))| !gpu_ms.is_nan())
-                    .map(|(path, &(gpu_ms, cpu_ms))| StageTime { stage: (*path).to_owned(), gpu_ms, cpu_ms })
-                    .collect(),
-            })
-            .collect()
+        let stage = |time: &ScopeTime| StageTime {
+            stage: engine.tree.path(time.scope).to_owned(),
+            gpu_ms: time.gpu_ms,
+            cpu_ms: time.cpu_ms,
+        };
+        let mut begin = 0;
+        let of_frame = |&(frame, end): &(u32, usize)| {
+            let times = &self.times[begin..end];
+            begin = end;
+            // Stages that got no timestamps were not timed.
+            let timed = times.iter().filter(|time| !time.gpu_ms.is_nan());
+            FrameTimes { run, frame, stages: timed.map(stage).collect() }
+        };
+        self.frames.iter().map(of_frame).collect()
     }
 }

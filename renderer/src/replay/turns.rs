@@ -164,7 +164,8 @@ impl<'s> Timed<'s> {
         let first = (&plans[0], lights.at_frame(plans[0].frame));
         engine.render(session, WARM_UP_SLOT, first, (&mut nothing, &mut nothing))?;
         session.context.check_validation()?;
-        let (frames, stages) = (plans.iter().map(|plan| plan.frame), engine.tree.paths().len());
+        let stages = session.frame_slots[WARM_UP_SLOT].timestamps.spans().len();
+        let frames = plans.iter().map(|plan| plan.frame);
         Ok(Self {
             tracer: Tracer::new(&run.config.trace, frames, run.config.most_runs(), stages),
             seat,

@@ -162,11 +162,11 @@ fn pictures(directory: &Path) -> Vec<Picture> {
             let image = entry.path();
             let stem = image.file_name()?.to_str()?.strip_suffix(".png")?;
             let frame = stem.parse().ok()?;
-            let [lights, heat, clusters, birdseye] =
-                ["lights", "heat", "clusters", "birdseye"].map(|shown| {
+            let [lights, heat, clusters, slices, birdseye] =
+                ["lights", "heat", "clusters", "slices", "birdseye"].map(|shown| {
                     Some(directory.join(format!("{stem}_{shown}.png"))).filter(|path| path.is_file())
                 });
-            Some(Picture { frame, image, lights, heat, clusters, birdseye })
+            Some(Picture { frame, image, lights, heat, clusters, slices, birdseye })
         })
         .collect();
     found.sort_by_key(|picture| picture.frame);

@@ -164,7 +164,9 @@ pub struct Picture {
     pub heat: Option<PathBuf>,
     /// Clusters as colour.
     pub clusters: Option<PathBuf>,
-    /// The same seen from above, with frusta.
+    /// Slices as colour, of grids that have several.
+    pub slices: Option<PathBuf>,
+    /// Clusters seen from above, with frusta.
     pub birdseye: Option<PathBuf>,
 }
 

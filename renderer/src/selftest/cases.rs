@@ -13,6 +13,10 @@ pub const PERSP: Method = Method::grid(Sharing::Indi, Space::Persp { pixels: 64.
 /// A method of orthographic grids.
 pub const ORTHO: Method = Method::grid(Sharing::Indi, Space::Ortho { metres: 4.0 });
 
+/// A method of perspective grids whose cells are tested as boxes, and whose slices are found by a sum.
+pub const ORTIZ: Method =
+    Method::grid(Sharing::Indi, Space::Counted { columns: 16.0, rows: 9.0, slices: 24.0 });
+
 /// Where grids lie, and views look from.
 pub fn pose() -> Pose {
     Pose { position: DVec3::new(1.0, 2.0, 3.0), rotation: DQuat::from_rotation_y(0.7), mirror: None }

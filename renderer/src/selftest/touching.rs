@@ -1,6 +1,6 @@
 //! Lights that touch clusters by the last bit of their radius: the slack of the radii must keep every one.
 
-use super::cases::{ORTHO, PERSP, box_grid, fragments_of, frustum_grid, noise, rain, random_bits};
+use super::cases::{ORTHO, ORTIZ, PERSP, box_grid, fragments_of, frustum_grid, noise, rain, random_bits};
 use super::{Context, Verdict};
 use crate::config::{Assign, Test};
 use crate::engine::workbench::Case;
@@ -16,7 +16,13 @@ const COUNT: usize = 2000;
 /// Lights that touch are on the lists of what they touch.
 pub fn check(context: &mut Context) -> Result<Verdict> {
     let (persp, ortho) = ((PERSP, frustum_grid([7, 6, 13])), (ORTHO, box_grid([11, 9, 13])));
-    let cases = [(persp, SphereTest::HALF_SPACES), (persp, SphereTest::Exact), (ortho, SphereTest::Box)];
+    let boxed = (ORTIZ, persp.1);
+    let cases = [
+        (persp, SphereTest::HALF_SPACES),
+        (persp, SphereTest::Exact),
+        (boxed, SphereTest::Box),
+        (ortho, SphereTest::Box),
+    ];
     for ((method, grid), test) in cases {
         let clusters = grid.cluster_count();
         let bits = random_bits(clusters, 2, 5);

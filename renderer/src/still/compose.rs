@@ -4,7 +4,7 @@ use super::{Base, Show};
 use crate::geometry::Grid;
 use crate::gpu_interface::PixelData;
 use crate::measure::ViewPixels;
-use crate::output::{cluster_color, cubehelix, srgb_decode, srgb_encode, tone_map};
+use crate::output::{cluster_color, cubehelix, slice_color, srgb_decode, srgb_encode, tone_map};
 use crate::passes::shade::BACKGROUND;
 use half::f16;
 use image::{Rgb, RgbImage};
@@ -119,7 +119,7 @@ impl Base {
         match self {
             Self::LightCount => pixel.light_count,
             Self::FragmentCount => pixel.fragment_count,
-            Self::Picture | Self::Clusters => 0,
+            Self::Picture | Self::Clusters | Self::Slices => 0,
         }
     }
 }
@@ -145,9 +145,10 @@ fn surface(
         (Base::Picture, Some(shaded)) => radiance(shaded[position]),
         (Base::Picture, None) => Surface::Plain([r, g, b]),
         _ if missing => Surface::Plain([DIMMED * light * light; 3]),
-        (Base::Clusters, _) => {
+        (Base::Clusters | Base::Slices, _) => {
             let cell = grids[pixel.clustering].cluster_at(pixel.cluster_index);
-            Surface::Plain(decoded(cluster_color(cell)).map(|c| c * light))
+            let color = if show.base == Base::Slices { slice_color(cell) } else { cluster_color(cell) };
+            Surface::Plain(decoded(color).map(|c| c * light))
         }
         (Base::LightCount | Base::FragmentCount, _) => {
             let fraction = f64::from(show.base.count(pixel)) / f64::from(most);

@@ -35,6 +35,8 @@ use onlooker::{Onlooker, Seen};
 pub enum Item {
     /// Clusters in three colours, by the sum of their three indices modulo 3; dim where no cluster is visible.
     Clusters,
+    /// Slices in eight colours, by the three low bits of their index as red, green and blue; dim where no cluster is visible.
+    Slices,
     /// Frusta of the views (green) and of the clusterings, or their boxes (red).
     Frusta,
     /// Influence volumes of the lights.
@@ -55,6 +57,8 @@ pub enum Base {
     Picture,
     /// Clusters in three colours.
     Clusters,
+    /// Slices in eight colours.
+    Slices,
     /// A heat map of lights.
     LightCount,
     /// A heat map of fragments.
@@ -84,6 +88,7 @@ impl Show {
         for item in items {
             let base = match item {
                 Item::Clusters => Base::Clusters,
+                Item::Slices => Base::Slices,
                 Item::LightCount => Base::LightCount,
                 Item::FragmentCount => Base::FragmentCount,
                 Item::Frusta => {
@@ -101,7 +106,7 @@ impl Show {
             };
             if show.base != Base::Picture && show.base != base {
                 return Err(Error::input(
-                    "show: clusters, light-count and fragment-count exclude each other: choose one of them",
+                    "show: clusters, slices, light-count and fragment-count exclude each other: choose one of them",
                 ));
             }
             show.base = base;
@@ -207,6 +212,7 @@ mod tests {
         let show = Show::from_items(&[Item::Clusters, Item::Frusta, Item::Missing]).unwrap();
         assert_eq!(show, Show { base: Base::Clusters, frusta: true, lights: false, missing: true });
         assert!(Show::from_items(&[Item::Clusters, Item::LightCount]).is_err());
+        assert!(Show::from_items(&[Item::Clusters, Item::Slices]).is_err());
         assert!(show.check(&Method::AllLights).is_err());
         assert!(Show::from_items(&[Item::Frusta, Item::Lights]).unwrap().check(&Method::AllLights).is_ok());
     }

@@ -43,13 +43,15 @@ pub fn ladder(named: &Method) -> Vec<Method> {
 
 /// A part of a size of this name; of cells that are counted, the count whose cells are that part as wide.
 fn step(name: &str, size: f64, part: f64) -> f64 {
-    if name == "CELLS" { (size / part).round() } else { size * part }
+    if matches!(name, "CELLS" | "COLUMNS") { (size / part).round() } else { size * part }
 }
 
 /// Whether a size of this name is neither too small nor, of counts, too large.
 fn makes_sense(name: &str, size: f64) -> bool {
     match name {
-        "CELLS" => (1.0..=MOST_CELLS).contains(&size),
+        "CELLS" | "COLUMNS" => (1.0..=MOST_CELLS).contains(&size),
+        // A screen has as many rows as its columns leave room for.
+        "ROWS" => false,
         "PIXELS" => size >= LEAST_PIXELS,
         _ => size >= LEAST_METRES,
     }
@@ -98,6 +100,7 @@ mod tests {
         assert_eq!(names("tiled-2"), ["tiled-4", "tiled-2"]);
         assert_eq!(names("g-20"), ["g-10", "g-13", "g-20", "g-27", "g-40", "g-53"]);
         assert_eq!(names("g-1"), ["g-1", "g-2", "g-3", "g-4", "g-5", "g-8"]);
+        assert_eq!(names("ortiz-64-9-1"), ["ortiz-32-9-2", "ortiz-64-9-2", "ortiz-32-9-1", "ortiz-64-9-1"]);
         assert_eq!(names("all-lights"), ["all-lights"]);
         let slices = ["sc-e-8-20", "sc-e-4-20", "sc-e-8-10", "sc-e-4-10", "sc-e-8-5", "sc-e-4-5"];
         assert_eq!(names("sc-e-4-10"), slices, "slices are whole");

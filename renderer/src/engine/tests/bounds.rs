@@ -14,7 +14,7 @@ use crate::selftest::cases::noise;
 /// What f32 may make of tangents, of metres, and of depths in parts of them.
 const CLOSE: f64 = 2e-5;
 
-fn method(name: &str) -> Method {
+pub(super) fn method(name: &str) -> Method {
     name.parse().unwrap()
 }
 
@@ -24,7 +24,7 @@ fn measuring() -> Config {
 }
 
 /// Words that the device keeps of a cluster: depth alone, or all three axes.
-fn words_of(bounds: &MeasuredBounds, depth_alone: bool) -> Vec<u32> {
+pub(super) fn words_of(bounds: &MeasuredBounds, depth_alone: bool) -> Vec<u32> {
     let in_order = |value: f64| {
         let bits = (value as f32).to_bits();
         if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
@@ -134,7 +134,7 @@ fn bounds_equal_their_twin() {
 }
 
 /// Boxes within clusters, some of one point, some empty, in numbers that the device has.
-fn random_bounds(grid: &Grid, clusters: &[u32]) -> Vec<MeasuredBounds> {
+pub(super) fn random_bounds(grid: &Grid, clusters: &[u32]) -> Vec<MeasuredBounds> {
     let mut random = noise(23);
     let mut unit = move || f64::from(random() % 65_536) / 65_536.0;
     let mut of_cluster = |&cluster: &u32| {
@@ -150,7 +150,7 @@ fn random_bounds(grid: &Grid, clusters: &[u32]) -> Vec<MeasuredBounds> {
 }
 
 /// A bench with a seventh of the clusters visible, and these.
-fn with_clusters(
+pub(super) fn with_clusters(
     config: &Config,
     (method, grid): (Method, Grid),
     lights: &[PointLight],

@@ -7,7 +7,7 @@ use crate::cpu::{Candidate, CellRange, CulledLights, FoundLists, Visible};
 use crate::geometry::{LightVolume, SphereTest, VolumeKind};
 use crate::gpu_interface::{self as device, BLOCK_WORDS, COUNTER_COUNT, GridData, TREE_WIDTH};
 use crate::measure::DeviceCounts;
-use crate::passes::{cull_lights, hierarchy};
+use crate::passes::{build_boxes, cull_lights, hierarchy};
 use crate::selftest::sorted_items;
 use std::mem::offset_of;
 
@@ -37,6 +37,7 @@ impl CulledDevice {
         bench.compact(&bits);
         bench.run(|r, frame| {
             let lights = light_upload::record(r, frame);
+            build_boxes::record(r, frame, given());
             assign::transform_lights(r, frame, lights, given());
         });
         let volumes = bench.volumes(BufferName::LightVolumes, lights.len());
@@ -117,6 +118,7 @@ fn cases() -> Vec<((Method, Grid), &'static str, Vec<PointLight>)> {
     vec![
         (persp, "hs", mixed()),
         (persp, "exact", lights(1000)),
+        ((ORTIZ, persp.1), "box", mixed()),
         (persp, "sat-n", lights(300)),
         (ortho, "box", mixed()),
         (ortho, "hs", random_lights(9, 2, 20.0, |_| 8.0)),

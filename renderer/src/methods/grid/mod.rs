@@ -64,6 +64,15 @@ pub enum Space {
         /// How many slices there are; a whole number.
         slices: f64,
     },
+    /// So many square tiles and slices, whatever the resolution (Ortiz, step 1).
+    Counted {
+        /// How many tiles stand side by side; a whole number.
+        columns: f64,
+        /// How many tiles stand one above the other, where the screen is not higher; a whole number.
+        rows: f64,
+        /// How many slices there are; a whole number.
+        slices: f64,
+    },
 }
 
 impl Space {
@@ -74,6 +83,7 @@ impl Space {
             Self::Ortho { metres } => vec![metres],
             Self::Displ { pixels, displacement } => vec![pixels, displacement],
             Self::Sliced { pixels, slices } => vec![pixels, slices],
+            Self::Counted { columns, rows, slices } => vec![columns, rows, slices],
         }
     }
 
@@ -83,6 +93,7 @@ impl Space {
             Self::Persp { .. } | Self::Displ { .. } | Self::Tiled { .. } | Self::Sliced { .. } => {
                 CellShape::Frustum
             }
+            Self::Counted { .. } => CellShape::BoxedFrustum,
             Self::Ortho { .. } => CellShape::Box,
         }
     }
@@ -91,16 +102,31 @@ impl Space {
     pub fn measured_bounds(&self) -> ClusterBounds {
         match self {
             Self::Tiled { .. } => ClusterBounds::Depth,
-            Self::Persp { .. } | Self::Displ { .. } | Self::Sliced { .. } | Self::Ortho { .. } => {
-                ClusterBounds::Box
-            }
+            Self::Persp { .. }
+            | Self::Displ { .. }
+            | Self::Sliced { .. }
+            | Self::Counted { .. }
+            | Self::Ortho { .. } => ClusterBounds::Box,
+        }
+    }
+
+    /// Whether a fragment's geometric slice is found from the logarithm of its depth, to which a constant is added (Ortiz), else from
+    /// that of the depth over the near one.
+    pub fn adds_bias(&self) -> bool {
+        match self {
+            Self::Counted { .. } => true,
+            Self::Persp { .. }
+            | Self::Displ { .. }
+            | Self::Tiled { .. }
+            | Self::Sliced { .. }
+            | Self::Ortho { .. } => false,
         }
     }
 
     /// Whether a law says where slices begin: tiles have but one, and boxes stand in rows.
     pub fn has_slices(&self) -> bool {
         match self {
-            Self::Persp { .. } | Self::Displ { .. } | Self::Sliced { .. } => true,
+            Self::Persp { .. } | Self::Displ { .. } | Self::Sliced { .. } | Self::Counted { .. } => true,
             Self::Ortho { .. } | Self::Tiled { .. } => false,
         }
     }

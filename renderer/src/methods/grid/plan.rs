@@ -3,8 +3,8 @@
 use super::{GridMethod, Space};
 use crate::geometry::views::{Pose, View, common_mirror, head_space};
 use crate::geometry::{
-    ClusterSpace, DisplacedVolume, Frustum, Grid, PerspectiveDimensions, SliceLaw, average_volume, displaced,
-    enclosing, from_metres, from_pixels, from_volume, sliced_tiles,
+    ClusterSpace, DisplacedVolume, Frustum, Grid, PerspectiveDimensions, SliceLaw, Slices, average_volume,
+    counted_tiles, displaced, enclosing, from_metres, from_pixels, from_volume, sliced_tiles,
 };
 use crate::methods::{Method, Sharing};
 use crate::{Error, Result};
@@ -102,6 +102,7 @@ impl Planner {
             }
             Space::Tiled { pixels } => self.sliced(view, pixels, 1.0),
             Space::Sliced { pixels, slices } => self.sliced(view, pixels, slices),
+            Space::Counted { columns, rows, slices } => self.counted(view, DVec3::new(columns, rows, slices)),
             Space::Ortho { metres } => self.orthographic(view.pose, std::slice::from_ref(view), metres),
             Space::Displ { pixels, displacement } => {
                 let volume = self.displaced_cluster_volume(frustum, pixels, displacement);
@@ -112,6 +113,11 @@ impl Planner {
 
     fn sliced(&self, view: &View, pixels: f64, slices: f64) -> Result<Grid> {
         let counts = sliced_tiles(&view.frustum, self.resolution, pixels, slices);
+        self.perspective(view.pose, self.grown(&view.frustum, pixels, &counts), counts)
+    }
+
+    fn counted(&self, view: &View, counts: DVec3) -> Result<Grid> {
+        let (pixels, counts) = counted_tiles(&view.frustum, self.resolution, counts);
         self.perspective(view.pose, self.grown(&view.frustum, pixels, &counts), counts)
     }
 
@@ -126,7 +132,7 @@ impl Planner {
                 let (pose, frustum) = self.enclosing_frustum(&head, views)?;
                 self.perspective(pose, frustum, from_volume(&frustum, volume))
             }
-            Space::Tiled { .. } | Space::Sliced { .. } => {
+            Space::Tiled { .. } | Space::Sliced { .. } | Space::Counted { .. } => {
                 Err(self.error("tiles divide the screen of one view and are not shared"))
             }
             Space::Ortho { metres } => self.orthographic(head, views, metres),
@@ -181,13 +187,20 @@ impl Planner {
         self.check_law(law, &frustum, counts.dimensions.z)?;
         let (slices, dimensions) = counts.by_law(law, &frustum);
         let (count, thinnest) = (dimensions.z, slices.thinnest(dimensions.z));
-        if count > MOST_SLICES || (count > 1.0 && thinnest < THINNEST_SLICE) {
+        let least = self.thinnest_slice(&slices);
+        if count > MOST_SLICES || (count > 1.0 && thinnest < least) {
             return Err(self.error(&format!(
                 "{count} slices, from {thinnest:.1e} of their depth thick, are more than {MOST_SLICES} or thinner than \
-                 {THINNEST_SLICE:e}, which single precision does not tell apart; choose a larger size"
+                 {least:.1e}, which single precision does not tell apart; choose a larger size"
             )));
         }
         self.grid(pose, ClusterSpace::Perspective { frustum, slices }, dimensions)
+    }
+
+    /// How thin slices are told apart, in parts of their depth: where a bias is added, what is added rounds too.
+    fn thinnest_slice(&self, slices: &Slices) -> f64 {
+        let added = if self.space.adds_bias() { slices.bias() * slices.on_device()[1] } else { 0.0 };
+        THINNEST_SLICE * (1.0 + added.abs())
     }
 
     /// A second plane needs a slice behind it.

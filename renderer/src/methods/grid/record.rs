@@ -4,13 +4,14 @@
 //! Depth ──mark, compact──> VisibleClusters ─┬─(bounds)─┐
 //! (all clusters) ──list_clusters────────────┘          │
 //! Lights ──transform, cull, build──────────────────────┴──count, offsets, assign──> LightLists
+//! (cells as boxes) ──build_boxes, where the projection is another──┘
 //! ```
 
 use crate::assign::{Assigner, ClusterBounds, Clusters};
 use crate::pass::Recorder;
 use crate::passes::{
-    Depth, Frame, LightLists, Lights, VisibleClusters, assign, bounds, cull_lights, depth, hierarchy,
-    list_clusters, mark, scan,
+    Depth, Frame, LightLists, Lights, VisibleClusters, assign, bounds, build_boxes, cull_lights, depth,
+    hierarchy, list_clusters, mark, scan,
 };
 
 /// Records all clusterings; the depth that comes back is what marking needed of it.
@@ -68,6 +69,7 @@ fn measured_bounds(r: &mut Recorder, frame: &Frame, (depth, visible): (Depth, Vi
 
 /// The light lists of the visible clusters.
 pub fn light_lists(r: &mut Recorder, frame: &Frame, lights: Lights, visible: VisibleClusters) -> LightLists {
+    build_boxes::record(r, frame, visible);
     match frame.assigner {
         Assigner::Brute => assign::transform_lights(r, frame, lights, visible),
         Assigner::Hierarchy => {

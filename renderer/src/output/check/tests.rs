@@ -151,6 +151,19 @@ fn tables_of_earlier_versions_lack_what_was_added_later() {
 }
 
 #[test]
+fn a_stage_that_follows_changes_is_not_every_frames() {
+    let out = whole();
+    let path = out.path().join("run/timings.csv");
+    let text = fs::read_to_string(&path).unwrap();
+    let shaded = "0,40,frame/shade[0],4.000000,0.500000\n";
+    let with = |stage: &str| text.replacen(shaded, &format!("{shaded}0,40,{stage},0.1,0.1\n"), 1);
+    fs::write(&path, with("frame/cluster[0]/build_boxes")).unwrap();
+    check_run(&out.path().join("run")).unwrap();
+    fs::write(&path, with("frame/cluster[0]/count_lights")).unwrap();
+    assert!(check_run(&out.path().join("run")).is_err());
+}
+
+#[test]
 fn files_that_are_cut_off_anywhere_are_found() {
     let out = whole();
     let directory = out.path().join("run");

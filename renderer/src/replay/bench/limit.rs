@@ -35,6 +35,6 @@ impl Limit {
                 limit::record(r, frame, (clustering, entries), &self.pipeline);
             }
         })?;
-        Ok(session.frame_slots[SLOT].timestamps.read()?.map(|(gpu_ms, _)| gpu_ms).sum())
+        Ok(session.frame_slots[SLOT].timestamps.read()?.map(|time| time.gpu_ms).sum())
     }
 }

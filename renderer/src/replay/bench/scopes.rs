@@ -90,7 +90,7 @@ fn least_times(
 fn frame_time(case: &TimedFrame<'_>, session: &mut Session, engine: &mut Engine) -> Result<f64> {
     case.render(session, engine)?;
     let frame = session.frame_slots[SLOT].timestamps.read()?.next();
-    Ok(frame.map_or(f64::NAN, |(gpu_ms, _)| gpu_ms))
+    Ok(frame.map_or(f64::NAN, |time| time.gpu_ms))
 }
 
 fn median(values: impl Iterator<Item = f64>) -> f64 {

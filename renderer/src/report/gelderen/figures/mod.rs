@@ -211,7 +211,7 @@ fn space_color(method: Method) -> Color {
         Method::Models => "purple",
         Method::Grid(grid) => match grid.space {
             Space::Persp { .. } => "blue",
-            Space::Tiled { .. } | Space::Sliced { .. } => "orange",
+            Space::Tiled { .. } | Space::Sliced { .. } | Space::Counted { .. } => "orange",
             Space::Ortho { .. } => "vermillion",
             Space::Displ { .. } => "green",
         },
