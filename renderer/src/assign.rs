@@ -5,6 +5,10 @@
 //! lights whose cells hold nothing visible; what is left, the candidates, the hierarchy puts into a tree, built anew each
 //! frame, down which each visible cluster goes, and scatter hands out to groups of visible clusters.
 
+mod store;
+
+pub use store::{Compaction, ListStore, MOST_CAPPED, MOST_FIXED};
+
 use crate::gpu_interface::{ASSIGN_WORKGROUP, BLOCK_COLUMNS, LIGHT_BLOCK, SORT_BITS, TREE_WIDTH};
 use crate::nearest;
 use clap::ValueEnum;
@@ -171,6 +175,24 @@ pub fn cheapest(clusterings: &[AssignCounts]) -> Assigner {
     let cost = |assigner| clusterings.iter().map(|counts| counts.cost(assigner)).sum::<f64>();
     let ways = [Assigner::Brute, Assigner::Scatter, Assigner::Hierarchy];
     ways.into_iter().min_by(|&a, &b| cost(a).total_cmp(&cost(b))).unwrap_or(Assigner::Brute)
+}
+
+/// Lights that brute force takes to lists in one pass, at most: each packet of 64 is a turn of a loop and up to 32 more, for two
+/// lights each, and lavapipe ends a shader's loops after 65 535 turns of all of them.
+const MOST_IN_ONE_PASS: u32 = 120_000;
+
+/// Why brute force cannot take so many lights to lists that are kept so.
+///
+/// # Errors
+/// Says how many it could.
+pub fn check_one_pass(lists: ListStore, lights: u32) -> Result<(), String> {
+    if lists.has_offsets() || lights <= MOST_IN_ONE_PASS {
+        return Ok(());
+    }
+    Err(format!(
+        "lists: brute force takes up to {MOST_IN_ONE_PASS} lights to {lists} in its one pass, and there are {lights}: use \
+         --assign scatter, or --lists offsets"
+    ))
 }
 
 /// Bits of lists take at most this many words.

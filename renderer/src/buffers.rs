@@ -21,6 +21,10 @@
 //! Where the device culls, `views`, `instances`, `drawables` and `draw_order` go to `draw_commands` and
 //! `drawn_instances` before all that (cull).
 //!
+//! Lists may be kept otherwise (see [`ListStore`](crate::assign::ListStore)): then brute force goes from `light_volumes` to
+//! `light_indices` at once (collect), with `list_lengths` beside them, and nothing is summed. Visible clusters may get their
+//! places from a counter, as `cluster_places` in place of `word_ranks`.
+//!
 //! All ways go to `list_lengths` by way of `light_masks` where these have room. Hierarchy and scatter first put the lights
 //! that may meet a visible cluster into `candidates` (cull_lights: `block_bits`, `light_bits`); then the hierarchy makes
 //! `sort_items`, `digit_counts`, `tree_volumes`, `tree_lights` and `light_nodes`, scatter `groups`, `packet_groups` and
@@ -85,12 +89,17 @@ buffers! {
         .storage("uint cluster_bits[]")
         .sized(|s| bytes::<u32>(s.words()))
         .serving(Purpose::Grouping);
-    /// Visible clusters before each word of bits.
+    /// Visible clusters before each word of bits, where ranks are their places.
     WordRanks = buffer("word_ranks", Owner::Clustering)
         .storage("uint word_ranks[]")
-        .sized(|s| bytes::<u32>(s.words()))
+        .sized(|s| bytes::<u32>(s.ranked_words()))
         .serving(Purpose::Grouping);
-    /// Linear indices of the visible clusters, ascending.
+    /// Place of each visible cluster of the grid, where a counter gave it.
+    ClusterPlaces = buffer("cluster_places", Owner::Clustering)
+        .storage("uint cluster_places[]")
+        .sized(|s| bytes::<u32>(s.cluster_places()))
+        .serving(Purpose::Grouping);
+    /// Linear indices of the visible clusters; ascending where ranks are their places.
     VisibleClusters = buffer("visible_clusters", Owner::Clustering)
         .storage("uint visible_clusters[]")
         .sized(|s| bytes::<u32>(s.visible()))
@@ -110,11 +119,11 @@ buffers! {
     BlockSums = buffer("block_sums", Owner::Clustering)
         .storage("uint block_sums[]")
         .sized(|s| bytes::<u32>(s.scan_blocks()));
-    /// How many lights each list has.
+    /// How many lights each list has; in entries of a fixed size, how many it should have.
     ListLengths = buffer("list_lengths", Owner::Clustering)
         .storage("uint list_lengths[]")
         .sized(|s| bytes::<u32>(s.visible()));
-    /// Where each list begins, and the total.
+    /// Where each list begins, and in the store by offsets the total; nothing where lists have entries of a fixed size.
     ListOffsets = buffer("list_offsets", Owner::Clustering)
         .storage("uint list_offsets[]")
         .sized(|s| bytes::<u32>(s.offsets()))
@@ -123,7 +132,7 @@ buffers! {
     LightIndices = buffer("light_indices", Owner::Clustering)
         .storage("uint light_indices[]")
         .texels("index", Element::Word)
-        .sized(|s| bytes::<u32>(s.capacities.light_indices.into()))
+        .sized(|s| bytes::<u32>(s.light_indices()))
         .serving(Purpose::Lists);
     /// What the device finds out: `new_state` is written, `state` is what earlier dispatches wrote.
     State = buffer("state", Owner::Clustering)

@@ -154,7 +154,7 @@ const STRUCTS: [StructInfo; 17] = [
 ];
 
 /// Names of what shader variants choose among; the value is the position.
-const VARIANT_NAMES: [&[&str]; 8] = [
+const VARIANT_NAMES: [&[&str]; 10] = [
     &["SPACE_PERSPECTIVE", "SPACE_ORTHOGRAPHIC", "SPACE_MODEL"],
     &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS", "SCAN_DIGITS", "SCAN_GROUPS"],
     &["ASSIGN_BRUTE", "ASSIGN_HIERARCHY", "ASSIGN_SCATTER"],
@@ -167,6 +167,8 @@ const VARIANT_NAMES: [&[&str]; 8] = [
         "SLICES_UNIFORM_NDC",
         "SLICES_UNIFORM_VIEW",
     ],
+    &["LISTS_OFFSETS", "LISTS_FIXED", "LISTS_CAPPED"],
+    &["COMPACTION_RANKS", "COMPACTION_ATOMIC"],
     &["CULLING_CPU", "CULLING_GPU"],
     &["BOUNDS_CELL", "BOUNDS_DEPTH", "BOUNDS_BOX"],
     &["VISIT_MARK", "VISIT_COUNT", "VISIT_BOUNDS"],

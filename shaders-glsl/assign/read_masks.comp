@@ -1,6 +1,8 @@
-// Reads each list off its bits: WRITE_LISTS 0 its length, 1 its lights.
+// Reads each list off its bits: WRITE_LISTS 0 its length, 1 its lights, as many as its store takes. Bits that did not fit were not
+// set: then lists are empty, but for those by offsets, whose lights are sorted instead.
 #version 460
 #include "lib/list_builder.glsl"
+#include "lib/list_store.glsl"
 #extension GL_EXT_control_flow_attributes : require
 
 layout(local_size_x = ASSIGN_WORKGROUP) in;
@@ -37,8 +39,13 @@ void main()
     if (visible >= state.visible)
         return;
 #if WRITE_LISTS
-    uint entry = list_offsets[visible];
-    uint end = min(list_offsets[visible + 1u], grid.index_capacity);
+#if LISTS == LISTS_OFFSETS
+    uint lights = 0u; // offsets tell
+#else
+    uint lights = state.masked != 0u ? list_lengths[visible] : 0u;
+#endif
+    uvec2 entries = keep_list(visible, lights);
+    uint entry = entries.x, end = entries.y;
     uint next = 0u, first = 0u;
     uvec4 words = uvec4(0u);
     while (entry < end && (next < state.mask_words || any(notEqual(words, uvec4(0u))))) {

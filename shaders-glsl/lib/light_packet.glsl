@@ -17,21 +17,34 @@ void fill_packet(LightVolume volume)
     barrier();
 }
 
-// A bit for each of the first `count` lights of the packet that meets a visible cluster; beyond all of these, the last one.
-uvec2 lights_met(uint visible, uint count)
+// What is tested of a thread's visible cluster; beyond all of these, of the last one.
+CellBounds cell_of_thread(uint visible)
 {
-    CellBounds cell = bounds_of_visible(min(visible, max(state.visible, 1u) - 1u));
+    return bounds_of_visible(min(visible, max(state.visible, 1u) - 1u));
+}
+
+// A bit for each of the first `count` lights of the packet that meets a cell, but for those that are left out all the same.
+uvec2 lights_passing(CellBounds cell, uint count)
+{
     uvec2 met = uvec2(0u);
     [[unroll]] for (uint i = 0u; i < 32u; ++i)
         met.x |= uint(sphere_meets(cell, packet_spheres[i])) << i;
     [[unroll]] for (uint i = 0u; i < 32u; ++i)
         met.y |= uint(sphere_meets(cell, packet_spheres[32u + i])) << i;
+    uint there = min(count, 32u), beyond = max(count, 32u) - 32u;
+    return met & uvec2(there == 32u ? 0xFFFFFFFFu : (1u << there) - 1u, beyond == 32u ? 0xFFFFFFFFu : (1u << beyond) - 1u);
+}
+
+// A bit for each of the first `count` lights of the packet that meets a visible cluster.
+uvec2 lights_met(uint visible, uint count)
+{
+    CellBounds cell = cell_of_thread(visible);
+    uvec2 met = lights_passing(cell, count);
 #if BOUNDS == BOUNDS_BOX && SPACE == SPACE_PERSPECTIVE && !BOXED
     for (uint part = 0u; part < 2u; ++part)
         for (uint bits = met[part]; bits != 0u; bits &= bits - 1u)
             if (is_left_out(cell, packet_spheres[32u * part + uint(findLSB(bits))]))
                 met[part] &= ~(bits & (0u - bits));
 #endif
-    uint there = min(count, 32u), beyond = max(count, 32u) - 32u;
-    return met & uvec2(there == 32u ? 0xFFFFFFFFu : (1u << there) - 1u, beyond == 32u ? 0xFFFFFFFFu : (1u << beyond) - 1u);
+    return met;
 }

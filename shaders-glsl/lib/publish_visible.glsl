@@ -54,6 +54,10 @@ void publish_visible(uint total)
     new_state.visible_total = total;
     uint visible = min(total, grid.visible_capacity);
     new_state.visible = visible;
+    new_state.longest = 0u;
+#if LISTS != LISTS_OFFSETS
+    new_state.index_total = 0u;
+#endif
     dispatches[DISPATCH_LISTS] = groups_for(visible, ASSIGN_WORKGROUP);
     dispatches[DISPATCH_SCAN] = groups_for(visible, SCAN_BLOCK);
 #if ASSIGN == ASSIGN_BRUTE

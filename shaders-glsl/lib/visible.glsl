@@ -1,5 +1,5 @@
-// The visible clusters: one bit a cluster while marking, a rank query after compaction. Where all clusters get lists, each
-// is visible, and its rank is its index.
+// The visible clusters: one bit a cluster while marking; after compaction the place of a cluster among them is its rank, or what
+// a counter gave it. Where all clusters get lists, each is visible, and its place is its index.
 #pragma once
 
 #include "generated/gpu_interface.glsl"
@@ -22,7 +22,11 @@ uint visible_index(uint cluster)
 #else
     uint word = cluster_bits[cluster >> 5];
     uint bit = 1u << (cluster & 31u);
+#if COMPACTION == COMPACTION_ATOMIC
+    uint index = cluster_places[cluster];
+#else
     uint index = word_ranks[cluster >> 5] + bitCount(word & (bit - 1u));
+#endif
     return (word & bit) != 0u && index < grid.visible_capacity ? index : NO_CLUSTER;
 #endif
 }

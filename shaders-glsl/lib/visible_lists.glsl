@@ -9,8 +9,17 @@ struct LightCursor {
 
 LightCursor list_of_visible(uint visible)
 {
-    return LightCursor(min(list_offsets[visible], grid.index_capacity),
-                       min(list_offsets[visible + 1u], grid.index_capacity));
+#if LISTS == LISTS_FIXED
+    uint first = visible * grid.list_capacity;
+    uint end = first + min(list_lengths[visible], grid.list_capacity);
+#elif LISTS == LISTS_CAPPED
+    uint first = list_offsets[visible];
+    uint end = first + list_lengths[visible];
+#else
+    uint first = list_offsets[visible];
+    uint end = list_offsets[visible + 1u];
+#endif
+    return LightCursor(min(first, grid.index_capacity), min(end, grid.index_capacity));
 }
 
 const uint NO_GROUP = NO_CLUSTER;

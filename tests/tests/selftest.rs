@@ -55,8 +55,8 @@ fn a_slack_of_nothing_loses_lights_that_touch() {
 
 #[test]
 fn a_list_that_is_cut_is_not_that_of_the_twin() {
-    let end = "uint end = min(list_offsets[visible + 1u], grid.index_capacity);";
-    let cut = end.replace("min(", "max(1u, min(").replace(");", ")) - 1u;");
+    let end = "uint entry = entries.x, end = entries.y;";
+    let cut = end.replace("entries.y", "max(1u, entries.y) - 1u");
     let found = faults(&with_fault(("assign/read_masks.comp", end, &cut), &["scan", "lists"]));
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(found[0].0 == "lists" && found[0].1.starts_with("brute force of "), "{found:?}");

@@ -68,6 +68,7 @@ impl ClusteringSizes {
             capacities: Capacities {
                 visible_clusters: entries(counts.visible_clusters),
                 light_indices: entries(counts.light_indices),
+                ..self.capacities
             },
             ..*self
         }
@@ -77,16 +78,19 @@ impl ClusteringSizes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::assign::{Assigner, ClusterBounds, Clusters};
+    use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction, ListStore};
     use crate::measure::Purpose;
 
     const SIZES: ClusteringSizes = ClusteringSizes {
         clusters: 4096,
         listed: Clusters::Visible,
         bounds: ClusterBounds::Box,
+        boxed: false,
+        compaction: Compaction::Ranks,
+        lists: ListStore::Offsets,
         slice_planes: 17,
         lights: 100,
-        capacities: Capacities { visible_clusters: 1000, light_indices: 5000 },
+        capacities: Capacities { visible_clusters: 1000, light_indices: 5000, list_entries: 0 },
         assigner: Assigner::Brute,
         counting: true,
         pixels: 64,
@@ -114,6 +118,16 @@ mod tests {
         let lights = told(&memory, "lights");
         assert!(lights[0] >= 100 * 32 && lights == [lights[0]; 3], "the clusterings share them");
         assert!(memory.iter().all(|one| one.used <= one.most && one.most <= one.allocated), "{memory:?}");
+    }
+
+    #[test]
+    fn lists_of_a_fixed_size_take_all_their_entries() {
+        let capacities = Capacities { list_entries: 40, ..SIZES.capacities };
+        let sizes = ClusteringSizes { lists: ListStore::Fixed(32), capacities, ..SIZES };
+        let frame = [counts([16, 16, 16], 900, 4000)];
+        let memory = sizes.memory(Copies { clusterings: 1, slots: 2 }, &[&frame]);
+        assert_eq!(told(&memory, "light_indices"), [4 * 40 * 1000, 4 * 40 * 900, 4 * 40 * 900]);
+        assert!(memory.iter().all(|one| one.structure != "list_offsets"));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Sizes of a clustering's buffers, and what a device must hold and dispatch for them: pure.
 
 use super::{BufferInfo, BufferName, Owner};
-use crate::assign::{self, Assigner, ClusterBounds, Clusters, light_blocks};
+use crate::assign::{self, Assigner, ClusterBounds, Clusters, Compaction, ListStore, light_blocks};
 use crate::gpu_interface::{ASSIGN_WORKGROUP, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS};
 use crate::measure::Capacities;
 use crate::vk::{Limits, texel_bytes};
@@ -18,11 +18,15 @@ pub struct ClusteringSizes {
     pub bounds: ClusterBounds,
     /// Whether the boxes around cells are tested.
     pub boxed: bool,
+    /// How visible clusters get their places.
+    pub compaction: Compaction,
+    /// How the lists lie in memory.
+    pub lists: ListStore,
     /// Depths between slices of a perspective grid (most of all frames).
     pub slice_planes: u32,
     /// Lights (most of all frames).
     pub lights: u32,
-    /// How many entries the buffers of visible clusters and light indices hold.
+    /// How many entries the buffers of visible clusters and light indices hold; see [`Self::light_indices`].
     pub capacities: Capacities,
     /// How the lists are built.
     pub assigner: Assigner,
@@ -41,6 +45,49 @@ impl ClusteringSizes {
         }
     }
 
+    /// Those of which each has its rank: what is visible before it.
+    pub(super) fn ranked_words(&self) -> u64 {
+        match self.compaction {
+            Compaction::Ranks => self.words(),
+            Compaction::Atomic => 0,
+        }
+    }
+
+    /// Clusters of which each has its place where it is visible.
+    pub(super) fn cluster_places(&self) -> u64 {
+        match (self.listed, self.compaction) {
+            (Clusters::Visible, Compaction::Atomic) => self.clusters,
+            _ => 0,
+        }
+    }
+
+    /// Entries of all lists together.
+    pub fn light_indices(&self) -> u64 {
+        match self.lists {
+            ListStore::Offsets | ListStore::Capped(_) => self.capacities.light_indices.into(),
+            ListStore::Fixed(_) => self.lists_there() * u64::from(self.capacities.list_entries),
+        }
+    }
+
+    /// Lists that have entries of their own: of no more clusters than there are.
+    fn lists_there(&self) -> u64 {
+        self.visible().min(self.clusters)
+    }
+
+    /// Entries of each list, or most lights of one, where lists are bounded.
+    pub fn list_bound(&self) -> u32 {
+        match self.lists {
+            ListStore::Offsets => 0,
+            ListStore::Fixed(_) => self.capacities.list_entries,
+            ListStore::Capped(lights) => lights,
+        }
+    }
+
+    /// Whether lists are read off bits that are set while lights are met.
+    pub fn has_masks(&self) -> bool {
+        self.lists.has_offsets() || self.assigner != Assigner::Brute
+    }
+
     /// Visible clusters that fit.
     pub(super) fn visible(&self) -> u64 {
         self.capacities.visible_clusters.into()
@@ -56,14 +103,23 @@ impl ClusteringSizes {
         if self.boxed { self.clusters } else { 0 }
     }
 
-    /// Entries of the offsets of lists: where each begins, and where the last one ends; none without clusters.
+    /// Entries of the offsets of lists: where each begins, and where the last one ends if it is not told by its length; none
+    /// without clusters.
     pub(super) fn offsets(&self) -> u64 {
-        if self.visible() > 0 { self.visible() + 1 } else { 0 }
+        match self.lists {
+            ListStore::Offsets if self.visible() > 0 => self.visible() + 1,
+            ListStore::Offsets | ListStore::Fixed(_) => 0,
+            ListStore::Capped(_) => self.visible(),
+        }
     }
 
     /// Words of the bits of all lists.
     pub fn mask_words(&self) -> u64 {
-        assign::mask_capacity(self.lights, self.capacities.visible_clusters)
+        if self.has_masks() {
+            assign::mask_capacity(self.lights, self.capacities.visible_clusters)
+        } else {
+            0
+        }
     }
 
     /// `size` where runs count, else nothing.
@@ -122,9 +178,10 @@ impl ClusteringSizes {
         self.scan_items().div_ceil(u64::from(SCAN_BLOCK))
     }
 
-    /// Items of the longest prefix sum.
+    /// Items of the longest prefix sum: of words, of lists, of the digits of the sort, of scatter's groups.
     fn scan_items(&self) -> u64 {
-        self.words().max(self.visible()).max(self.digit_counts())
+        let lists = if self.lists.has_offsets() { self.visible() } else { 0 };
+        self.ranked_words().max(lists).max(self.digit_counts()).max(self.groups())
     }
 
     /// What the buffers of a clustering take, bytes, where so many frames are in flight.
@@ -141,9 +198,11 @@ impl ClusteringSizes {
         let words = limits.max_storage_buffer_range / 4;
         let groups = u64::from(limits.max_compute_work_group_count[0]);
         let entries = |words: u64| u32::try_from(words).unwrap_or(u32::MAX);
+        let indices = words.min(limits.max_texel_buffer_elements);
         Capacities {
             visible_clusters: entries((words - 1).min(groups * u64::from(ASSIGN_WORKGROUP))),
-            light_indices: entries(words.min(limits.max_texel_buffer_elements)),
+            light_indices: entries(indices),
+            list_entries: entries(indices / self.lists_there().max(1)),
         }
     }
 
@@ -151,14 +210,20 @@ impl ClusteringSizes {
     pub fn check(&self, limits: &Limits) -> Result<()> {
         for info in BufferName::ALL.map(BufferName::info) {
             let (name, size) = (info.name, info.size.map_or(0, |size| size(self)));
+            let mend = match self.lists {
+                ListStore::Fixed(_) if name == BufferName::LightIndices.info().name => {
+                    "fewer entries a list, or --lists offsets"
+                }
+                _ => "fewer lights or larger clusters",
+            };
             let too_much = |what: String| {
                 Error::Device(format!(
                     "buffer {name} would {what} ({} clusters, {} lights, {} visible clusters, {} light indices): use \
-                     fewer lights or larger clusters",
+                     {mend}",
                     self.clusters,
                     self.lights,
                     self.capacities.visible_clusters,
-                    self.capacities.light_indices,
+                    self.light_indices(),
                 ))
             };
             let most = limits.max_storage_buffer_range;
@@ -183,6 +248,11 @@ impl ClusteringSizes {
             (format!("{lights} lights"), packets, most_x.min(most_y)),
             (format!("{visible} visible clusters"), groups, most_x),
             (format!("{} clusters", self.clusters), blocks.max(boxes), most_x),
+            (
+                format!("{} clusters with atomic compaction", self.clusters),
+                self.cluster_places().div_ceil(ASSIGN_WORKGROUP.into()),
+                most_x,
+            ),
         ] {
             if workgroups > most {
                 return Err(Error::Device(format!(
@@ -201,13 +271,15 @@ mod tests {
 
     /// What 10 000 lights need among 2^20 clusters.
     fn sizes() -> ClusteringSizes {
-        let capacities = Capacities { visible_clusters: 1000, light_indices: 1 << 20 };
+        let capacities = Capacities { visible_clusters: 1000, light_indices: 1 << 20, list_entries: 0 };
         let assigner = Assigner::Scatter;
         ClusteringSizes {
             clusters: 1 << 20,
             listed: Clusters::Visible,
             bounds: ClusterBounds::Cell,
             boxed: false,
+            compaction: Compaction::Ranks,
+            lists: ListStore::Offsets,
             slice_planes: 65,
             lights: 10_000,
             capacities,
@@ -256,6 +328,42 @@ mod tests {
     }
 
     #[test]
+    fn every_store_has_the_buffers_that_it_uses_and_no_others() {
+        let brute = ClusteringSizes { assigner: Assigner::Brute, ..sizes() };
+        let bytes = |sizes: ClusteringSizes| {
+            [
+                BufferName::ListOffsets,
+                BufferName::ListLengths,
+                BufferName::LightIndices,
+                BufferName::LightMasks,
+                BufferName::BlockSums,
+            ]
+            .map(|name| name.info().size.map_or(0, |size| size(&sizes)))
+        };
+        let masks = 4 * assign::mask_capacity(10_000, 1000);
+        // 2^15 words of bits are ranked in 32 blocks.
+        let ranked = 4 * 32;
+        assert_eq!(bytes(brute), [4 * 1001, 4 * 1000, 4 << 20, masks, ranked]);
+        let capacities = Capacities { list_entries: 70, ..brute.capacities };
+        let fixed = ClusteringSizes { lists: ListStore::Fixed(64), capacities, ..brute };
+        assert_eq!(bytes(fixed), [0, 4 * 1000, 4 * 1000 * 70, 0, ranked]);
+        let few = ClusteringSizes { clusters: 300, ..fixed };
+        assert_eq!(bytes(few)[2], 4 * 300 * 70, "no more lists than clusters");
+        let capped = ClusteringSizes { lists: ListStore::Capped(100), ..brute };
+        assert_eq!(bytes(capped), [4 * 1000, 4 * 1000, 4 << 20, 0, ranked]);
+        let scattered = ClusteringSizes { assigner: Assigner::Scatter, ..fixed };
+        assert_eq!(bytes(scattered)[3], masks, "bits are what such lists are read off");
+        let places = |sizes: ClusteringSizes| {
+            [BufferName::WordRanks, BufferName::ClusterPlaces]
+                .map(|name| name.info().size.map_or(0, |size| size(&sizes)))
+        };
+        assert_eq!(places(brute), [4 << 15, 0]);
+        let atomic = ClusteringSizes { compaction: Compaction::Atomic, ..brute };
+        assert_eq!(places(atomic), [0, 4 << 20]);
+        assert_eq!(places(ClusteringSizes { listed: Clusters::All, ..atomic }), [0, 0]);
+    }
+
+    #[test]
     fn memory_grows_with_what_buffers_hold_and_frames_in_flight() {
         let sizes = sizes();
         let host = sizes.bytes(1) - sizes.bytes(0);
@@ -266,7 +374,7 @@ mod tests {
     }
 
     fn few_indices() -> Capacities {
-        Capacities { visible_clusters: 2, light_indices: 1000 }
+        Capacities { visible_clusters: 2, light_indices: 1000, list_entries: 0 }
     }
 
     #[test]

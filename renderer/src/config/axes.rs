@@ -57,7 +57,7 @@ pub struct Axis {
 }
 
 /// Every axis: of the product the first varies slowest.
-pub static AXES: [Axis; 10] = [
+pub static AXES: [Axis; 12] = [
     Axis {
         name: "scene",
         description: "The scene as the configuration has it, or its file's name without extension; `*` stands for any \
@@ -197,6 +197,30 @@ pub static AXES: [Axis; 10] = [
         split: |config| each(&config.shading, |shading| Config { shading: vec![shading], ..config.clone() }),
         called: |run| vec![names(&run.shading)],
         label: |run, _| names(&run.shading),
+    },
+    Axis {
+        name: "lists",
+        description: "How light lists lie in memory; `*` stands for any text.",
+        column: "lists",
+        role: Role::Way,
+        values: Values::Names,
+        applies: Method::has_lists,
+        count: |config| config.lists.len(),
+        split: |config| each(&config.lists, |store| Config { lists: vec![store], ..config.clone() }),
+        called: |run| vec![names(&run.lists)],
+        label: |run, _| names(&run.lists),
+    },
+    Axis {
+        name: "compaction",
+        description: "How visible clusters get their places among the lists; `*` stands for any text.",
+        column: "compaction",
+        role: Role::Way,
+        values: Values::Names,
+        applies: Clusters::applies,
+        count: |config| config.compaction.len(),
+        split: |config| each(&config.compaction, |way| Config { compaction: vec![way], ..config.clone() }),
+        called: |run| vec![names(&run.compaction)],
+        label: |run, _| names(&run.compaction),
     },
 ];
 

@@ -2,7 +2,7 @@
 //! slices; and the way of assignment.
 
 use super::{Assign, Config, LightsFrom};
-use crate::assign::{Bounds, Clusters, Marking};
+use crate::assign::{Bounds, Clusters, Compaction, Marking, check_one_pass};
 use crate::geometry::{CellShape, SliceLaw, SphereTest};
 use crate::methods::Method;
 use crate::nearest;
@@ -107,11 +107,14 @@ fn has_models(method: &Method) -> bool {
 }
 
 impl Config {
-    /// Refuses a run whose test cannot serve its method's clusters, or whose fragments may lie off their models.
+    /// Refuses a run whose test cannot serve its method's clusters, whose fragments may lie off their models, or whose visible
+    /// clusters cannot take their places in any order.
     ///
     /// # Errors
     /// Names both.
     pub fn check_case(&self) -> Result<(), String> {
+        self.check_compaction()?;
+        self.check_lists()?;
         if self.msaa > 1 && self.marking == Marking::Geometry && self.methods.first().is_some_and(has_models)
         {
             return Err(format!(
@@ -129,6 +132,37 @@ impl Config {
             }
             (Some(method), Some(Test::Named(SphereTest::Box))) if !has_boxes(method) => Err(format!(
                 "test: the clusters of {method} are no boxes: test them with `exact`, or exclude the run"
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    fn check_lists(&self) -> Result<(), String> {
+        let brute = self.assign.first() == Some(&Assign::Brute)
+            && self.methods.first().is_some_and(Method::has_lists);
+        match (self.lists.first(), self.lights_of_run().lighting()) {
+            (Some(&lists), Some(lighting)) if brute => check_one_pass(lists, lighting.count),
+            _ => Ok(()),
+        }
+    }
+
+    fn check_compaction(&self) -> Result<(), String> {
+        let marks = |method: &&Method| <Clusters as Own>::applies(method);
+        let (Some(method), Some(Compaction::Atomic)) =
+            (self.methods.first().filter(marks), self.compaction.first())
+        else {
+            return Ok(());
+        };
+        if self.clusters.first().is_some_and(|clusters| clusters.of(method) == Clusters::All) {
+            return Err(format!(
+                "compaction: all clusters of {method} have lists, at places that nothing has to find: use ranks, or exclude \
+                 the run"
+            ));
+        }
+        match self.assign.first() {
+            Some(way @ (Assign::Scatter | Assign::Auto)) => Err(format!(
+                "compaction: atomic leaves no neighbours together, whose groups `{way}` takes lights to: use --assign brute or \
+                 hierarchy, or exclude the run"
             )),
             _ => Ok(()),
         }
@@ -235,6 +269,35 @@ mod tests {
         {
             assert_eq!(refused(method, msaa, marking), None, "{method} {msaa} {marking:?}");
         }
+    }
+
+    #[test]
+    fn a_counter_gives_places_where_clusters_are_marked_and_neighbours_do_not_matter() {
+        let refused = |method: &str, assign, clusters: &str| {
+            let config = Config {
+                assign: vec![assign],
+                clusters: vec![clusters.parse().unwrap()],
+                compaction: vec![Compaction::Atomic],
+                ..config(&[method], &["auto"])
+            };
+            config.cases()[0].check_case().err()
+        };
+        for (method, assign) in [
+            ("sc-i-48-40", Assign::Brute),
+            ("encl-ortho-4", Assign::Hierarchy),
+            ("g-20", Assign::Scatter),
+            ("all-lights", Assign::Auto),
+        ] {
+            assert_eq!(refused(method, assign, "auto"), None, "{method}");
+        }
+        for assign in [Assign::Scatter, Assign::Auto] {
+            assert!(refused("sc-i-48-40", assign, "auto").unwrap().contains("no neighbours"), "{assign}");
+        }
+        for (method, clusters) in [("dc-i-128-64", "auto"), ("sc-i-48-40", "all")] {
+            let refused = refused(method, Assign::Brute, clusters).unwrap();
+            assert!(refused.contains("all clusters of"), "{refused}");
+        }
+        assert_eq!(refused("dc-i-128-64", Assign::Brute, "visible"), None);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::values::MAX_RESOLUTION;
 use super::{Assign, Choice, Config, Layer};
-use crate::assign::{Bounds, Clusters};
+use crate::assign::{Bounds, Clusters, Compaction};
 use crate::lights::Attenuation;
 use crate::methods::{KINDS, Kind};
 use crate::shading::Shading;
@@ -109,6 +109,18 @@ pub(super) fn slices(_: &mut SchemaGenerator) -> Schema {
         "pattern": r"^(auto|geometric|cubes|second-plane-[0-9.]+|linear|uniform-ndc|uniform-view)$",
         "examples": ["auto", "geometric", "cubes", "second-plane-5", "linear", "uniform-ndc", "uniform-view"]
     }))
+}
+
+pub(super) fn lists(_: &mut SchemaGenerator) -> Schema {
+    one_or_several(&json_schema!({
+        "type": "string",
+        "pattern": "^(offsets|(fixed|capped)-[1-9][0-9]*)$",
+        "examples": ["offsets", "fixed-128", "capped-100"]
+    }))
+}
+
+pub(super) fn compaction(_: &mut SchemaGenerator) -> Schema {
+    names_of(Compaction::value_variants())
 }
 
 fn choices_of<T: Copy + std::fmt::Display>(values: &[T]) -> Schema {

@@ -6,7 +6,7 @@ use super::{
     Assign, Choice, Exclude, ExrFrames, ExrLayout, FrameRange, Runs, SceneEntry, Scopes, Test, exclude,
     scenes, schema,
 };
-use crate::assign::{Bounds, Clusters, Marking};
+use crate::assign::{Bounds, Clusters, Compaction, ListStore, Marking};
 use crate::culling::Culling;
 use crate::geometry::{DisplacedVolume, SliceLaw, SphereTest};
 use crate::lights::{Attenuation, GeneratorKind, LatticeBox, LightBox, LightMotion, LightSet, Lighting};
@@ -232,6 +232,25 @@ settings! {
         arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::choice::<SliceLaw>)
         serde(default, deserialize_with = "de::ways")
         schemars(schema_with = "schema::slices")
+        write(serialize_with = "ser::one_or_several")
+        check(values::check_ways)
+    }
+    /// How the light lists lie in memory: `offsets` (one behind the other, once their lengths are counted), `fixed-N` (N entries
+    /// each, and more where a list needs more), or `capped-N` (each in a range that a counter hands out, of its first N lights: the
+    /// others are dropped, and counted). Of several, with commas between, each is a run of every method.
+    lists: Vec<ListStore> = vec![ListStore::Offsets], Run {
+        arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::list_store)
+        serde(default, deserialize_with = "de::ways")
+        schemars(schema_with = "schema::lists")
+        write(serialize_with = "ser::one_or_several")
+        check(values::check_ways)
+    }
+    /// How visible clusters get their places among the lists: `ranks` (by a prefix sum, in the order of the grid) or `atomic` (by
+    /// a counter, in any order; by brute force and hierarchy alone). Of several, with commas between, each is a run of every method.
+    compaction: Vec<Compaction> = vec![Compaction::Ranks], Run {
+        arg(long, value_enum, value_name = "LIST", value_delimiter = ',')
+        serde(default, deserialize_with = "de::ways")
+        schemars(schema_with = "schema::compaction")
         write(serialize_with = "ser::one_or_several")
         check(values::check_ways)
     }

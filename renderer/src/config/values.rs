@@ -2,6 +2,7 @@
 //! here and serves flags and files alike.
 
 use super::{Choice, Lighting, SceneEntry, scenes};
+use crate::assign::ListStore;
 use crate::lights::Attenuation;
 use crate::methods::Method;
 use serde::de::{Error as _, SeqAccess, Visitor};
@@ -33,6 +34,11 @@ pub(super) fn method(text: &str) -> Result<Method, String> {
 
 /// Reads the name of a test of sphere against cluster.
 pub(super) fn choice<T: FromStr<Err = String>>(text: &str) -> Result<Choice<T>, String> {
+    text.parse()
+}
+
+/// Reads the name of a store of light lists.
+pub(super) fn list_store(text: &str) -> Result<ListStore, String> {
     text.parse()
 }
 

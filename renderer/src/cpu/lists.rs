@@ -44,6 +44,12 @@ pub fn sort_lists(numbers: &[u32], light_of: impl Fn(u32) -> u32) -> Vec<u32> {
     lights
 }
 
+/// What is kept of a list that ascends where at most `most` lights have room, and how many are dropped.
+pub fn cap_list(lights: &[u32], most: u32) -> (&[u32], u64) {
+    let (kept, dropped) = lights.split_at(lights.len().min(most as usize));
+    (kept, dropped.len() as u64)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -57,6 +63,13 @@ mod tests {
     #[test]
     fn sorted_lists_are_of_lights() {
         assert_eq!(sort_lists(&[2, 0, 1], |number| 10 * number + 3), [3, 13, 23]);
+    }
+
+    #[test]
+    fn full_lists_keep_their_first_lights() {
+        assert_eq!(cap_list(&[2, 3, 7], 2), (&[2, 3][..], 1));
+        assert_eq!(cap_list(&[2, 3, 7], 3), (&[2, 3, 7][..], 0));
+        assert_eq!(cap_list(&[], 1), (&[][..], 0));
     }
 
     #[test]

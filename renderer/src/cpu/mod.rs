@@ -15,7 +15,7 @@
 //! ```text
 //! visible clusters ─mark_blocks─> blocks ─cull_lights─> candidates ─┬─keys, sorted, build_nodes─> tree ─descend─> lists
 //!                                                                   └─scatter_groups─> groups ─scatter─> lists
-//! bits ─read_masks─> lists      lists in any order ─sort_lists─> lists
+//! bits ─read_masks─> lists      lists in any order ─sort_lists─> lists      lists ─cap_list─> capped ones
 //! ```
 //!
 //! Where f32 may fall on the other side of a boundary, a twin given an epsilon says so itself ([`Marks`],
@@ -46,7 +46,7 @@ pub use cull::{Seen, cull};
 pub use cull_lights::{Blocks, Candidate, CellRange, CulledLights, cull_lights, mark_blocks};
 pub use depth_steps::{depth_steps, log2_parts};
 pub use hierarchy::{Descent, Key, Node, Tree, build_nodes, descend, keys, sorted};
-pub use lists::{FoundLists, read_masks, sort_lists};
+pub use lists::{FoundLists, cap_list, read_masks, sort_lists};
 pub use mark::{DepthImage, Marks, mark};
 pub use scan::scan;
 pub use scatter::{ClusterGroup, scatter, scatter_groups};

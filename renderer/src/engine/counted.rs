@@ -1,6 +1,7 @@
 //! What an atemporal frame counted on the device, read back and put into records.
 
 use super::Engine;
+use super::kept::KeptLists;
 use super::session::Session;
 use crate::gpu_interface::ClusteringState;
 use crate::measure::{ClusterLists, ClusterRecord, ClusteringCounts, DeviceCounts};
@@ -17,8 +18,10 @@ pub struct Counted {
     lights_per_fragment: Vec<u32>,
     visible_clusters: Vec<u32>,
     visible_fragments: Vec<u32>,
-    /// Light lists of the clustering.
+    /// Light lists of the clustering, by ascending cluster.
     pub lists: ClusterLists,
+    /// How many lights the lists should have.
+    light_indices: u64,
 }
 
 impl Counted {
@@ -30,7 +33,7 @@ impl Counted {
         (slot, frame, clustering): (usize, u32, usize),
         (state, lights): (ClusteringState, u32),
     ) -> Result<Self> {
-        let words = readback::counted_words(state.visible, state.index_total, lights);
+        let words = readback::counted_words(KeptLists::words(&engine.sizes, &state), lights);
         let size = 4 * words.iter().sum::<u64>();
         let usage = vk::BufferUsageFlags::TRANSFER_DST;
         let target = Buffer::new(&session.context, "counter readback", size, usage, Memory::Readback)?;
@@ -38,15 +41,26 @@ impl Counted {
             readback::copy_counted(r, frame, clustering, &words, &target);
         })?;
         let mut offset = 0;
-        let [counters, lights_per_fragment, visible_clusters, visible_fragments, offsets, indices] = words
-            .map(|words| {
+        let [counters, lights_per_fragment, clusters, fragments, offsets, lengths, indices] =
+            words.map(|words| {
                 let data: Vec<u32> = target.read(offset, words as usize);
                 offset += 4 * words;
                 data
             });
-        let lists = ClusterLists { frame, clustering: clustering as u32, offsets, indices };
-        let counters = DeviceCounts::from_words(&counters);
-        Ok(Self { state, counters, lights_per_fragment, visible_clusters, visible_fragments, lists })
+        let (sizes, lengths) = (&engine.sizes, &lengths);
+        let kept = KeptLists { sizes, clusters: &clusters, offsets: &offsets, lengths, indices: &indices };
+        let order = kept.order();
+        let in_order = |values: &[u32]| order.iter().map(|&place| values[place]).collect();
+        let (offsets, indices) = kept.in_order(&order);
+        Ok(Self {
+            state,
+            counters: DeviceCounts::from_words(&counters),
+            lights_per_fragment,
+            visible_clusters: in_order(&clusters),
+            visible_fragments: in_order(&fragments),
+            lists: ClusterLists { frame, clustering: clustering as u32, offsets, indices },
+            light_indices: kept.wanted(&state),
+        })
     }
 
     /// Refuses a frame whose lists do not ascend, or in which fewer lights were evaluated than the lists of its fragments
@@ -76,13 +90,15 @@ impl Counted {
     /// The clustering's record; `capacity` is how many light indices fitted.
     pub fn clustering(&self, dimensions: [u32; 3], capacity: u32) -> ClusteringCounts {
         let state = &self.state;
+        let cut_off = self.light_indices.saturating_sub(self.lists.indices.len() as u64);
+        let beyond = u64::from(state.index_total.saturating_sub(capacity));
         let clusters = self.visible_clusters.iter().zip(&self.visible_fragments).enumerate();
         ClusteringCounts {
             dimensions,
             visible_clusters: u64::from(state.visible_total),
-            light_indices: u64::from(state.index_total),
+            light_indices: self.light_indices,
             intersection_tests: self.counters.intersection_tests,
-            light_indices_dropped: u64::from(state.index_total.saturating_sub(capacity)),
+            light_indices_dropped: cut_off.max(beyond),
             visible_clusters_dropped: u64::from(state.visible_total - state.visible),
             lists_hash: self.lists.hash(self.visible_clusters.iter().copied()),
             clusters: clusters

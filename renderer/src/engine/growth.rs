@@ -1,13 +1,14 @@
 //! Buffers that turn out too small: the frame is rendered again with larger ones.
 
 use super::{Commands, Engine, FramePlan, Session};
-use crate::Result;
+use crate::assign::Assigner;
 use crate::gpu_interface::ClusteringState;
 use crate::lights::FrameLights;
 use crate::measure::{Capacities, GrowthEvent};
 use crate::pass::Recorder;
 use crate::passes::Frame;
 use crate::passes::readback::STATE_BYTES;
+use crate::{Error, Result};
 
 /// Extends a frame by nothing.
 pub fn nothing(_: &mut Recorder, _: &Frame) {}
@@ -18,7 +19,8 @@ const GROWTH_MARGIN: u32 = 5;
 impl Engine {
     /// What the buffers hold now.
     pub fn capacities(&self) -> Capacities {
-        self.sizes.capacities
+        let light_indices = u32::try_from(self.sizes.light_indices()).unwrap_or(u32::MAX);
+        Capacities { light_indices, ..self.sizes.capacities }
     }
 
     /// Renders a frame in `slot` and waits for it, again and again until its buffers hold it. No other frame may be in
@@ -44,19 +46,25 @@ impl Engine {
 
     /// Where the frame that ended in `slot` needed more than the buffers hold, grows them and says true: the frame
     /// must be rendered again. No other frame may be in flight.
+    ///
+    /// # Errors
+    /// Larger buffers are more than the device holds; lists are read off bits that had no room.
     pub fn grow_if_needed(&mut self, session: &Session, slot: usize, frame: u32) -> Result<bool> {
         if !self.overflowed(session, slot) {
             return Ok(false);
         }
         session.context.wait_idle()?;
         let states = self.states(session, slot);
+        self.check_masks(&states, frame)?;
         let most = self.sizes.most(&session.context.limits);
         let capacities = &mut self.sizes.capacities;
         let visible = most_needed(&states, |state| state.visible_total);
         let indices = most_needed(&states, |state| state.index_total);
+        let entries = most_needed(&states, |state| state.longest);
         for (buffer, capacity, (clustering, needed), most) in [
             ("visible_clusters", &mut capacities.visible_clusters, visible, most.visible_clusters),
             ("light_indices", &mut capacities.light_indices, indices, most.light_indices),
+            ("list_entries", &mut capacities.list_entries, entries, most.list_entries),
         ] {
             if needed > *capacity {
                 let (from, to) = (*capacity, with_margin(needed, most));
@@ -69,14 +77,34 @@ impl Engine {
         Ok(true)
     }
 
+    /// Refuses a frame whose lists are empty because the bits that they are read off had no room.
+    fn check_masks(&self, states: &[ClusteringState], frame: u32) -> Result<()> {
+        if !states.iter().any(|state| self.lacks_masks(state)) {
+            return Ok(());
+        }
+        Err(Error::Device(format!(
+            "frame {frame}: lists {} by {} are read off a bit a light, and those of all lists are more than 64 MiB: use --lists \
+             offsets, fewer lights or larger clusters",
+            self.lists, self.assigner
+        )))
+    }
+
+    fn lacks_masks(&self, state: &ClusteringState) -> bool {
+        !self.lists.has_offsets() && self.assigner != Assigner::Brute && state.masked == 0
+    }
+
     /// Whether the frame that ended in `slot` needed more than the buffers hold.
     pub fn overflowed(&self, session: &Session, slot: usize) -> bool {
-        let Capacities { visible_clusters, light_indices } = self.sizes.capacities;
+        let Capacities { visible_clusters, light_indices, .. } = self.sizes.capacities;
         let mut state = [ClusteringState::default()];
         self.method.has_lists()
             && (0..self.clusterings.len() as u64).any(|clustering| {
                 session.frame_slots[slot].states.read_into(clustering * STATE_BYTES, &mut state);
-                state[0].visible_total > visible_clusters || state[0].index_total > light_indices
+                let ClusteringState { visible_total, index_total, longest, .. } = state[0];
+                visible_total > visible_clusters
+                    || index_total > light_indices
+                    || longest > 0
+                    || self.lacks_masks(&state[0])
             })
     }
 }

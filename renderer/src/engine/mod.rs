@@ -13,6 +13,7 @@ mod counted;
 mod frame_slot;
 mod growth;
 mod host;
+mod kept;
 mod mode;
 mod plan;
 mod requirements;
@@ -28,7 +29,7 @@ pub use mode::{LargestGrid, Mode, variant};
 pub use plan::{FramePlan, plan_frames};
 pub use session::{Session, shader_library};
 
-use crate::assign::{Assigner, ClusterBounds, Clusters, Marking};
+use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction, ListStore, Marking};
 use crate::buffers::{BufferName, ClusteringSizes, Copies};
 use crate::clustering::{Clustering, FRAME_SLOTS, SharedBuffer, make_buffer};
 use crate::config::{Config, Scopes};
@@ -58,6 +59,8 @@ pub struct Engine {
     marking: Marking,
     clusters: Clusters,
     bounds: ClusterBounds,
+    compaction: Compaction,
+    lists: ListStore,
     grid_box: GridBox,
     assigner: Assigner,
     shading: Shading,
@@ -94,7 +97,7 @@ impl Engine {
     /// Buffers beyond the device's limits; shaders that do not compile.
     pub fn new(session: &mut Session, run: &Config, largest: LargestGrid, mode: Mode) -> Result<Self> {
         let chosen = Chosen::of(run, &mode);
-        chosen.check_models(session.scene.models())?;
+        chosen.check(session.scene.models(), mode.lights)?;
         let largest = chosen.largest(largest, session.scene.models());
         let sizes = chosen.sizes(run, largest, &mode);
         sizes.check(&session.context.limits)?;
@@ -110,6 +113,8 @@ impl Engine {
             multiview: run.multiview && session.targets.len() > 1,
             clusters: chosen.clusters,
             bounds: chosen.bounds,
+            compaction: chosen.compaction,
+            lists: chosen.lists,
             grid_box: run.grid_box,
             marking: run.marking,
             assigner: chosen.assigner,
@@ -140,7 +145,7 @@ impl Engine {
     /// As there.
     pub fn check(session: &mut Session, run: &Config, largest: LargestGrid, mode: &Mode) -> Result<()> {
         let chosen = Chosen::of(run, mode);
-        chosen.check_models(session.scene.models())?;
+        chosen.check(session.scene.models(), mode.lights)?;
         let largest = chosen.largest(largest, session.scene.models());
         chosen.sizes(run, largest, mode).check(&session.context.limits)?;
         session.store.pipelines(&chosen.variant(run, mode)).map(drop)
@@ -260,6 +265,8 @@ impl Engine {
             multiview: self.multiview,
             clusters: self.clusters,
             bounds: self.bounds,
+            compaction: self.compaction,
+            lists: self.lists,
             marking: self.marking,
             assigner: self.assigner,
             shading: self.shading,

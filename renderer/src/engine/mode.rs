@@ -1,7 +1,7 @@
 //! What an engine is made for, and what follows from it: shader variants and buffer sizes.
 
 use super::FramePlan;
-use crate::assign::{Assigner, ClusterBounds, Clusters};
+use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction, ListStore, check_one_pass};
 use crate::buffers::ClusteringSizes;
 use crate::config::Config;
 use crate::geometry::{SliceLaw, SphereTest};
@@ -76,6 +76,8 @@ pub(super) struct Chosen {
     pub assigner: Assigner,
     pub clusters: Clusters,
     pub bounds: ClusterBounds,
+    pub compaction: Compaction,
+    pub lists: ListStore,
     slices: SliceLaw,
     test: SphereTest,
 }
@@ -85,11 +87,17 @@ impl Chosen {
     pub fn of(run: &Config, mode: &Mode) -> Self {
         let method = run.methods[0];
         // A method without lists assigns nothing.
-        let assigner = if method.has_lists() { mode.assigner } else { Assigner::Brute };
+        let has_lists = method.has_lists();
+        let clusters = method.listed(run.clusters[0].of(&method));
         Self {
             method,
-            assigner,
-            clusters: method.listed(run.clusters[0].of(&method)),
+            assigner: if has_lists { mode.assigner } else { Assigner::Brute },
+            clusters,
+            compaction: match clusters {
+                Clusters::Visible => run.compaction[0],
+                Clusters::All => Compaction::Ranks,
+            },
+            lists: if has_lists { run.lists[0] } else { ListStore::Offsets },
             bounds: method.kept_bounds(run.bounds[0].of(&method)),
             slices: run.slices[0].of(&method),
             test: run.test[0].of(&method),
@@ -102,11 +110,14 @@ impl Chosen {
         LargestGrid { clusters, ..planned }
     }
 
-    /// Refuses more models than the way of assignment serves.
+    /// Refuses more models, or more lights, than the way of assignment serves.
     ///
     /// # Errors
     /// Says how many there are, and how many there may be.
-    pub fn check_models(&self, models: u32) -> Result<()> {
+    pub fn check(&self, models: u32, lights: u32) -> Result<()> {
+        if self.assigner == Assigner::Brute {
+            check_one_pass(self.lists, lights).map_err(Error::Input)?;
+        }
         if self.method != Method::Models || self.assigner == Assigner::Brute || models <= MOST_ACCELERATED {
             return Ok(());
         }
@@ -125,6 +136,8 @@ impl Chosen {
             sharing: kind.sharing,
             clusters: self.clusters,
             bounds: self.bounds,
+            compaction: self.compaction,
+            lists: self.lists,
             slices: self.slices,
             adds_bias: self.method.adds_bias(),
             samples: run.msaa,
@@ -144,14 +157,21 @@ impl Chosen {
     pub fn sizes(&self, run: &Config, largest: LargestGrid, mode: &Mode) -> ClusteringSizes {
         let LargestGrid { clusters, slice_planes } = largest;
         let kind = self.method.kind();
+        let list_entries = match self.lists {
+            ListStore::Fixed(entries) => entries.max(mode.capacities.list_entries),
+            ListStore::Offsets | ListStore::Capped(_) => 0,
+        };
+        let capacities = self.method.capacities(clusters, self.clusters, mode.capacities);
         ClusteringSizes {
             clusters,
             listed: self.clusters,
             bounds: self.bounds,
             boxed: kind.cells.is_some_and(|cells| cells.keeps_boxes(self.test)),
+            compaction: self.compaction,
+            lists: self.lists,
             slice_planes,
             lights: mode.lights,
-            capacities: self.method.capacities(clusters, self.clusters, mode.capacities),
+            capacities: Capacities { list_entries, ..capacities },
             assigner: self.assigner,
             counting: mode.counting,
             pixels: u64::from(run.resolution[0]) * u64::from(run.resolution[1]),

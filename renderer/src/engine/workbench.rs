@@ -1,5 +1,6 @@
 //! A device with one planned frame on which single passes run, fed and read by hand: for tests and for the self-test.
 
+use super::kept::KeptLists;
 use super::{Engine, FramePlan, LargestGrid, Mode, Session, variant};
 use crate::Result;
 use crate::assign::Assigner;
@@ -11,9 +12,9 @@ use crate::gpu_interface::{ClusteringState, GridData};
 use crate::lights::{FrameLights, PointLight};
 use crate::measure::Capacities;
 use crate::methods::Method;
-use crate::methods::grid::light_lists;
+use crate::methods::grid::{compact, light_lists};
 use crate::pass::{BufferCopy, Faults, Recorder};
-use crate::passes::{Frame, VisibleClusters, lights as light_upload, readback, scan};
+use crate::passes::{Frame, VisibleClusters, lights as light_upload, readback};
 use crate::pipelines::Variant;
 use crate::scene::Scene;
 use crate::vk::{Buffer, Memory};
@@ -183,12 +184,12 @@ impl Workbench {
         assert_eq!(bits.len() as u64, self.words, "a bit a cluster");
         self.upload(BufferName::ClusterBits, bits)?;
         self.run(|r, frame| {
-            scan::compact(r, frame, 0);
+            compact(r, frame, 0);
         })?;
         self.state()
     }
 
-    /// The lists of the clusters that [`Self::compact`] made visible.
+    /// The lists of the clusters that [`Self::compact`] made visible, by ascending cluster.
     ///
     /// # Errors
     /// Whatever fails on the device.
@@ -197,11 +198,29 @@ impl Workbench {
             let lights = light_upload::record(r, frame);
             light_lists(r, frame, lights, given());
         })?;
+        self.kept_lists()
+    }
+
+    /// The lists that are there, by ascending cluster.
+    fn kept_lists(&mut self) -> Result<Lists> {
         let state = self.state()?;
-        Ok(Lists {
-            offsets: self.download(BufferName::ListOffsets, state.visible as usize + 1)?,
-            indices: self.download(BufferName::LightIndices, state.index_total.max(1) as usize)?,
-        })
+        let words = KeptLists::words(&self.engine.sizes, &state);
+        let names = [
+            BufferName::VisibleClusters,
+            BufferName::ListOffsets,
+            BufferName::ListLengths,
+            BufferName::LightIndices,
+        ];
+        let mut parts: [Vec<u32>; 4] = Default::default();
+        for ((name, words), part) in names.into_iter().zip(words).zip(&mut parts) {
+            if words > 0 {
+                *part = self.download(name, words as usize)?;
+            }
+        }
+        let [clusters, offsets, lengths, indices] = parts.each_ref().map(Vec::as_slice);
+        let kept = KeptLists { sizes: &self.engine.sizes, clusters, offsets, lengths, indices };
+        let (offsets, indices) = kept.in_order(&kept.order());
+        Ok(Lists { offsets, indices })
     }
 
     /// GPU milliseconds of each stage of the commands that ran last, with its path.

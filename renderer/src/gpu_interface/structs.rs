@@ -58,6 +58,8 @@ gpu_struct! {
         pub visible_capacity: u32,
         /// Light indices that fit.
         pub index_capacity: u32,
+        /// Entries of each list, or most lights of one, where lists are bounded.
+        pub list_capacity: u32,
         /// Words of light bits that fit, of all lists together.
         pub mask_capacity: u32,
         /// Lights of groups that fit, in whole packets.
@@ -216,8 +218,10 @@ gpu_struct! {
         pub visible_total: u32,
         /// Number of visible clusters that fitted.
         pub visible: u32,
-        /// Number of light indices there are.
+        /// Number of light indices there are; of lists of a fixed size nobody sums them.
         pub index_total: u32,
+        /// Length of the longest list that has more lights than the entries of each; 0 where all have room.
+        pub longest: u32,
         /// Lights that lists are made of: all, or those that may meet a visible cluster.
         pub candidates: u32,
         /// Words of light bits a list.

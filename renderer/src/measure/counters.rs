@@ -45,6 +45,8 @@ counters! {
     intersection_tests,
     /// Fragments that were shaded and are hidden in the end, with overdraw.
     fragments_hidden,
+    /// Lights that capped lists were too full for.
+    lights_dropped,
     /// Octaves by which the distances of neighbouring pixels of the first view differ, all together, in [`OCTAVE_PARTS`].
     depth_steps,
     /// Pairs of neighbouring pixels that these are of: both show something.

@@ -59,7 +59,7 @@ pub struct Scenery<'a> {
 }
 
 impl Method {
-    /// A method of grids with lists by offsets for visible clusters, and implicit bounds.
+    /// A method of grids with lists for visible clusters, and implicit bounds.
     pub const fn grid(sharing: Sharing, space: Space) -> Self {
         Self::Grid(GridMethod::new(sharing, space))
     }
@@ -138,7 +138,7 @@ impl Method {
     /// What a clustering's buffers hold at first, for grids of up to `clusters` clusters; nothing without lists.
     pub fn capacities(&self, clusters: u64, listed: Clusters, first: Capacities) -> Capacities {
         match self {
-            Self::AllLights => Capacities { visible_clusters: 0, light_indices: 0 },
+            Self::AllLights => Capacities { visible_clusters: 0, light_indices: 0, list_entries: 0 },
             Self::Grid(_) | Self::World(_) | Self::Models => grid::capacities(clusters, listed, first),
         }
     }

@@ -79,7 +79,7 @@ macro_rules! frame_row {
         row! {
             /// A frame: the counters of the atemporal run, and GPU milliseconds, of each stage the minimum over the
             /// temporal runs; `None` where nothing was timed.
-            "frames.csv" FrameRow added fragments_hidden depth_discontinuity {
+            "frames.csv" FrameRow added fragments_hidden lights_dropped depth_discontinuity {
                 /// Frame number in the recording.
                 frame: u32,
                 /// Its time in the recording, seconds.
@@ -153,6 +153,9 @@ frame_row! {
         light_indices_dropped: u64 = FrameCounts::light_indices_dropped;
         /// Visible clusters that did not fit: none.
         visible_clusters_dropped: u64 = FrameCounts::visible_clusters_dropped;
+        /// Lights that capped lists were too full for; of other lists none.
+        #[serde(default)]
+        lights_dropped: u64 = |counts| counts.counters.lights_dropped;
         /// Mean over neighbouring pixels of the first view of the octaves by which their distances differ, millionths.
         #[serde(default)]
         depth_discontinuity: u64 = FrameCounts::depth_discontinuity;

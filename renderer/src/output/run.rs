@@ -38,7 +38,7 @@ pub struct PlannedRun {
 }
 
 impl PlannedRun {
-    /// Refuses a test that cannot serve the method.
+    /// Refuses what cannot go together: see [`Config::check_case`].
     ///
     /// # Errors
     /// Names both.

@@ -43,7 +43,7 @@ pub(super) fn manifest() -> Manifest {
         },
         doubts: vec!["others were at work".into()],
         timing: None,
-        capacities: Capacities { visible_clusters: 1, light_indices: 2 },
+        capacities: Capacities { visible_clusters: 1, light_indices: 2, list_entries: 0 },
         memory_bytes: Some(memory().iter().map(|structure| structure.allocated).sum()),
         growth: vec![GrowthEvent {
             frame: 40,

@@ -1,5 +1,5 @@
 //! Stages `transform_lights`, `count_lights` and `assign_lights`: which lights meet which visible cluster
-//! (Gelderen section 5.3).
+//! (Gelderen section 5.3). Lists by offsets, by any way, and other lists by hierarchy and scatter:
 //!
 //! ```text
 //! brute      light_volumes ──────────────────────────────> meet ┐
@@ -8,12 +8,18 @@
 //! ```
 //!
 //! Where the masks have no room the device sizes the dispatches otherwise: pairs are found twice, counted first and then
-//! written, and the lists are sorted.
+//! written, and the lists are sorted. Lists that are not by offsets are empty then, which the host refuses.
+//!
+//! Brute force makes lists that are not by offsets at once, and counts nothing before:
+//!
+//! ```text
+//! light_volumes ──collect──> list_lengths, light_indices (list_offsets)
+//! ```
 
 use super::handles::{LightLists, Lights, VisibleClusters};
 use super::inputs::Frame;
 use super::scan::group_packets;
-use crate::assign::{Assigner, ClusterBounds};
+use crate::assign::{Assigner, ClusterBounds, ListStore};
 use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::gpu_interface::{
     ASSIGN_WORKGROUP, DISPATCH_GROUPS, DISPATCH_LISTS, DISPATCH_MASKED, DISPATCH_MEET, DISPATCH_MEET_AGAIN,
@@ -55,11 +61,37 @@ pub fn count_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
 
 /// The lists themselves, each by ascending light.
 pub fn assign_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) -> LightLists {
-    r.scope("assign_lights", |r| {
-        write_lists(r, frame, visible);
-        sort_lists(r, frame, visible);
+    r.scope("assign_lights", |r| match (frame.lists, frame.assigner) {
+        (ListStore::Offsets, _) => {
+            write_lists(r, frame, visible);
+            sort_lists(r, frame, visible);
+        }
+        (ListStore::Fixed(_) | ListStore::Capped(_), Assigner::Brute) => collect(r, frame, visible),
+        (ListStore::Fixed(_) | ListStore::Capped(_), Assigner::Hierarchy | Assigner::Scatter) => {
+            keep_lists(r, frame, visible);
+        }
     });
     LightLists::of(visible)
+}
+
+/// What keeping a list writes, in a store without offsets that are summed.
+const KEPT: BufferSet = set(&[B::State, B::ListOffsets, B::ListLengths, B::LightIndices]);
+
+/// Takes all lights to all lists, in order.
+fn collect(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
+    let writes = KEPT | set(&[B::Counters]);
+    let pipeline = frame.pipelines.clustered().collect();
+    meet(r, frame, visible, (pipeline, DISPATCH_LISTS), (BufferSet::EMPTY, writes));
+}
+
+/// Reads lists off their bits, to where their store has them.
+fn keep_lists(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
+    let writes = match frame.lists {
+        ListStore::Capped(_) => KEPT | set(&[B::Counters]),
+        ListStore::Offsets | ListStore::Fixed(_) => KEPT,
+    };
+    let read_masks = (&*frame.pipelines.clustered().read_masks[1], DISPATCH_LISTS);
+    indirect(r, frame, visible, read_masks, (set(&[B::LightMasks, B::Candidates]), writes));
 }
 
 /// Writes the lists: off their bits, in order, or else pair by pair, in any order.

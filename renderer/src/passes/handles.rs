@@ -45,7 +45,7 @@ impl BitOr for Depth {
     }
 }
 
-/// The visible clusters of one clustering: counted, and listed by ascending index.
+/// The visible clusters of one clustering: counted, and listed, by ascending index unless a counter gave them their places.
 #[derive(Debug, Clone, Copy)]
 pub struct VisibleClusters {
     pub(super) clustering: usize,

@@ -1,6 +1,7 @@
 //! What a frame is recorded from.
 
-use crate::assign::{Assigner, ClusterBounds, Clusters, Marking};
+use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction, ListStore, Marking};
+use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::clustering::Clustering;
 use crate::draw_list::DrawList;
 use crate::drawables::{DrawableOrder, Drawables};
@@ -151,6 +152,10 @@ pub struct Frame<'a> {
     pub clusters: Clusters,
     /// What of a cluster is tested against lights.
     pub bounds: ClusterBounds,
+    /// How visible clusters get their places.
+    pub compaction: Compaction,
+    /// How the lists lie in memory.
+    pub lists: ListStore,
     /// Where visible clusters are marked from.
     pub marking: Marking,
     /// How the light lists are built.
@@ -175,7 +180,20 @@ pub struct Frame<'a> {
     pub slot: usize,
 }
 
+/// What tells the place of a visible cluster among the lists.
+pub const PLACES: BufferSet = set(&[B::ClusterBits, B::WordRanks, B::ClusterPlaces]);
+
 impl Frame<'_> {
+    /// What tells the list of a cluster.
+    pub fn list_places(&self) -> BufferSet {
+        PLACES
+            | match self.lists {
+                ListStore::Offsets => set(&[B::ListOffsets]),
+                ListStore::Fixed(_) => set(&[B::ListLengths]),
+                ListStore::Capped(_) => set(&[B::ListOffsets, B::ListLengths]),
+            }
+    }
+
     /// The buffers of a clustering.
     pub fn buffers(&self, clustering: usize) -> BoundBuffers<'_> {
         self.clusterings[clustering].bound(self.slot)

@@ -3,7 +3,7 @@
 
 use super::draws::{self, DepthUse, SurfacePass, SurfacePipelines};
 use super::handles::Depth;
-use super::inputs::{Eyes, Frame};
+use super::inputs::{Eyes, Frame, PLACES};
 use crate::assign::Marking;
 use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::draw_list::SurfaceKind;
@@ -29,7 +29,7 @@ pub fn record(r: &mut Recorder, frame: &Frame, (clustering, view): (usize, usize
 pub fn count_fragments(r: &mut Recorder, frame: &Frame, clustering: usize) {
     let this = &frame.clusterings[clustering];
     r.clear(&this.buffers[B::VisibleFragments]);
-    let found = (set(&[B::ClusterBits, B::WordRanks]), set(&[B::VisibleFragments]));
+    let found = (PLACES, set(&[B::VisibleFragments]));
     for view in this.views.clone() {
         let by_pixel = Size::pixels(frame.resolution);
         visit(r, frame, (clustering, view), (&frame.pipelines.clustered().count_fragments, by_pixel), found);

@@ -29,6 +29,7 @@ pub mod scan;
 pub mod seen;
 pub mod shade;
 pub mod spheres;
+pub mod take_places;
 
 pub use handles::{Color, Depth, LightLists, Lights, VisibleClusters};
 pub use inputs::{ColorTarget, DrawBuffers, Draws, Eyes, Frame, ImageLayer, ViewTargets};

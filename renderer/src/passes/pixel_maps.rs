@@ -2,15 +2,12 @@
 
 use super::inputs::Frame;
 use super::pixel_models;
-use crate::buffers::{BufferName as B, BufferSet, set};
+use crate::buffers::{BufferName as B, set};
 use crate::gpu_interface::PixelData;
 use crate::layouts::Pipeline;
 use crate::pass::{BufferCopy, Dispatch, Push, Recorder, Size};
 use crate::targets::TargetName;
 use crate::vk::Buffer;
-
-/// What tells the list of a pixel's cluster, and its fragments.
-const LOOKED_UP: BufferSet = set(&[B::ClusterBits, B::WordRanks, B::ListOffsets, B::VisibleFragments]);
 
 /// Size in bytes of a view's [`TargetName::Radiance`] (half RGBA) and, behind it, of its [`PixelData`].
 pub fn view_bytes([width, height]: [u32; 2]) -> [u64; 2] {
@@ -37,7 +34,8 @@ pub(super) fn look_up(
     (to, offset): (&Buffer, u64),
 ) {
     pixel_models::record(r, frame, (view, clustering));
-    let declared = (LOOKED_UP, set(&[B::Pixels]));
+    let looked_up = frame.list_places() | set(&[B::VisibleFragments]);
+    let declared = (looked_up, set(&[B::Pixels]));
     let dispatch =
         Dispatch::new(pipeline, frame.buffers(clustering), Size::pixels(frame.resolution), declared);
     let depth = Some(frame.targets[view].depth_image());

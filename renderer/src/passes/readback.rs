@@ -30,26 +30,23 @@ pub fn clear_counters(r: &mut Recorder, frame: &Frame) {
     }
 }
 
-/// Sizes of what [`copy_counted`] copies of one clustering, in its order; 32-bit words.
-pub fn counted_words(visible: u32, indices: u32, lights: u32) -> [u64; 6] {
-    [
-        2 * COUNTER_COUNT as u64,
-        u64::from(lights) + 1,
-        u64::from(visible),
-        u64::from(visible),
-        u64::from(visible) + 1,
-        u64::from(indices),
-    ]
+/// Sizes of what [`copy_counted`] copies of one clustering, in its order; 32-bit words. `lists` are those of visible clusters, and
+/// of offsets, lengths and lights of their lists.
+pub fn counted_words(lists: [u64; 4], lights: u32) -> [u64; 7] {
+    let [clusters, offsets, lengths, indices] = lists;
+    [2 * COUNTER_COUNT as u64, u64::from(lights) + 1, clusters, clusters, offsets, lengths, indices]
 }
 
-/// Copies, one behind the other: counters, lights per fragment, visible clusters, their fragments, offsets, indices.
-pub fn copy_counted(r: &mut Recorder, frame: &Frame, clustering: usize, words: &[u64; 6], target: &Buffer) {
+/// Copies, one behind the other: counters, lights per fragment, visible clusters, their fragments, offsets, lengths and lights of
+/// their lists.
+pub fn copy_counted(r: &mut Recorder, frame: &Frame, clustering: usize, words: &[u64; 7], target: &Buffer) {
     let sources = [
         B::Counters,
         B::LightsPerFragment,
         B::VisibleClusters,
         B::VisibleFragments,
         B::ListOffsets,
+        B::ListLengths,
         B::LightIndices,
     ];
     let mut offset = 0;

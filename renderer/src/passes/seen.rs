@@ -23,7 +23,7 @@ pub fn record(r: &mut Recorder, frame: &Frame) {
                     (SurfaceKind::Opaque, SurfacePipelines::One(opaque)),
                     (SurfaceKind::Masked, SurfacePipelines::One(masked)),
                 ],
-                reads: set(&[B::ClusterBits, B::WordRanks, B::ListOffsets]),
+                reads: frame.list_places(),
                 writes: set(&[B::Counters]),
             },
         );

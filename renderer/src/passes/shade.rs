@@ -76,7 +76,7 @@ fn surfaces(r: &mut Recorder, frame: &Frame, eyes: Eyes, kind: SurfaceKind) {
         depth,
         // Masked surfaces are counted apart.
         writes: if depth == DepthUse::Keep { BufferSet::EMPTY } else { COUNTED },
-        ..shading(eyes, &draws)
+        ..shading(frame, eyes, &draws)
     };
     draws::surfaces(r, frame, &pass);
 }
@@ -85,17 +85,21 @@ fn surfaces(r: &mut Recorder, frame: &Frame, eyes: Eyes, kind: SurfaceKind) {
 fn count_masked(r: &mut Recorder, frame: &Frame, eyes: Eyes) {
     let Some(pipelines) = &frame.pipelines.count_masked else { return };
     let draws = [(SurfaceKind::Masked, SurfacePipelines::ByTextures(pipelines))];
-    draws::surfaces(r, frame, &shading(eyes, &draws));
+    draws::surfaces(r, frame, &shading(frame, eyes, &draws));
 }
 
 /// Shading of surfaces that counts, over what is there of radiance and depth.
-fn shading<'a>(eyes: Eyes, draws: &'a [(SurfaceKind, SurfacePipelines<'a>)]) -> SurfacePass<'a> {
+fn shading<'a>(
+    frame: &Frame,
+    eyes: Eyes,
+    draws: &'a [(SurfaceKind, SurfacePipelines<'a>)],
+) -> SurfacePass<'a> {
     SurfacePass {
         eyes,
         colors: &[(TargetName::Radiance, ColorUse::Keep)],
         depth: DepthUse::Test,
         draws,
-        reads: set(&[B::Lights, B::ClusterBits, B::WordRanks, B::ListOffsets, B::LightIndices]),
+        reads: frame.list_places() | set(&[B::Lights, B::LightIndices]),
         writes: COUNTED,
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Defines, PipelineStore, ScanPipelines, Variant, Visit, VisitPipelines};
 use crate::Result;
-use crate::assign::Assigner;
+use crate::assign::{Assigner, Compaction, ListStore};
 use crate::layouts::Pipeline;
 use std::sync::Arc;
 
@@ -33,6 +33,31 @@ impl Maker<'_> {
     /// A shader that asks what a volume meets, twice: with `define` 0 and 1.
     fn both_tests(&mut self, path: &str, define: &'static str) -> Result<[Arc<Pipeline>; 2]> {
         twice(self.store, path, &self.tests, define)
+    }
+
+    /// What takes lights to lists in one pass, where there is such.
+    fn collect(&mut self) -> Result<Option<Arc<Pipeline>>> {
+        let Variant { assigner, lists, .. } = *self.variant;
+        let kept = match lists {
+            ListStore::Offsets => return Ok(None),
+            // They lie in memory at once.
+            ListStore::Fixed(_) => 0,
+            ListStore::Capped(lights) => lights,
+        };
+        let defines = self.tests.with("KEPT_LIGHTS", kept);
+        let path = "assign/collect.comp";
+        (assigner == Assigner::Brute).then(|| self.store.compute(path, &defines)).transpose()
+    }
+
+    /// Counting clusters into places, and what follows from their number, where that is how they get them.
+    fn take_places(&mut self) -> Result<Option<[Arc<Pipeline>; 2]>> {
+        match self.variant.compaction {
+            Compaction::Ranks => Ok(None),
+            Compaction::Atomic => Ok(Some([
+                self.lists("cluster/take_places.comp")?,
+                self.lists("cluster/publish_places.comp")?,
+            ])),
+        }
     }
 
     fn scan(&mut self, items: &str) -> Result<ScanPipelines> {
@@ -85,6 +110,8 @@ pipelines! {
         count_fragments: VisitPipelines = make.visit(Visit::Count);
         /// Prefix sum of the visibility words.
         compact: ScanPipelines = make.scan("SCAN_VISIBILITY");
+        /// Places for visible clusters by a counter, and what follows from their number.
+        take_places: Option<[Arc<Pipeline>; 2]> = make.take_places();
         /// Every cluster as a visible one.
         list_clusters: Arc<Pipeline> = make.lists("cluster/list_clusters.comp");
         /// Takes lights into clustering space.
@@ -95,6 +122,8 @@ pipelines! {
         meet: [Arc<Pipeline>; 2] = make.both_tests(meet(make.variant.assigner), "WRITE_LISTS");
         /// Lengths of lists, and the lists, from their bits.
         read_masks: [Arc<Pipeline>; 2] = make.both("assign/read_masks.comp", "WRITE_LISTS");
+        /// Lights to lists by brute force in one pass.
+        collect: Option<Arc<Pipeline>> = make.collect();
         /// Prefix sum of the lengths of lists.
         light_offsets: ScanPipelines = make.scan("SCAN_LIST_LENGTHS");
         /// Sorts the lists of lights.
@@ -123,6 +152,18 @@ pipelines! {
         reorder: Arc<Pipeline> = make.lists("build/reorder.comp");
         /// Makes one depth of the hierarchy.
         build_nodes: Arc<Pipeline> = make.tests("build/build_nodes.comp");
+    }
+}
+
+impl ClusteredPipelines {
+    /// Gives visible clusters their places by a counter; only its pass asks.
+    pub fn take_places(&self) -> &[Arc<Pipeline>; 2] {
+        self.take_places.as_ref().expect("a counter gives places where compaction is atomic")
+    }
+
+    /// Takes lights to lists in one pass; only that asks.
+    pub fn collect(&self) -> &Pipeline {
+        self.collect.as_ref().expect("one pass makes lists by brute force that no lengths place")
     }
 }
 

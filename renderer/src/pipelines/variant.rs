@@ -1,7 +1,7 @@
 //! A variant as data: what shaders are specialised for, and the defines that follow.
 
 use super::Output;
-use crate::assign::{Assigner, ClusterBounds, Clusters, Marking};
+use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction, ListStore, Marking};
 use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
 use crate::geometry::{CellShape, Separators, Sharing, SliceLaw, SphereTest};
@@ -21,6 +21,10 @@ pub struct Variant {
     pub clusters: Clusters,
     /// What of a cluster is tested against lights.
     pub bounds: ClusterBounds,
+    /// How visible clusters get their places.
+    pub compaction: Compaction,
+    /// How the lists lie in memory.
+    pub lists: ListStore,
     /// Where slices begin.
     pub slices: SliceLaw,
     /// Whether a geometric slice is found by adding a constant to a logarithm.
@@ -117,11 +121,22 @@ impl Variant {
             ClusterBounds::Depth => "BOUNDS_DEPTH",
             ClusterBounds::Box => "BOUNDS_BOX",
         };
+        let compaction = match self.compaction {
+            Compaction::Ranks => "COMPACTION_RANKS",
+            Compaction::Atomic => "COMPACTION_ATOMIC",
+        };
+        let lists = match self.lists {
+            ListStore::Offsets => "LISTS_OFFSETS",
+            ListStore::Fixed(_) => "LISTS_FIXED",
+            ListStore::Capped(_) => "LISTS_CAPPED",
+        };
         Defines(vec![])
             .with("LOOKUP", self.lookup)
             .with("SPACE", space)
             .with("CLUSTERS", clusters)
             .with("BOUNDS", bounds)
+            .with("COMPACTION", compaction)
+            .with("LISTS", lists)
             .with("SLICES", self.slices_define())
             .with("SAMPLES", self.samples)
             .with("PER_SAMPLE", u32::from(self.per_sample()))

@@ -1,7 +1,8 @@
 //! Which way of assignment a run takes where that is left to counts.
 
 use crate::Result;
-use crate::assign::{AssignCounts, Assigner, cheapest};
+use crate::assign::{AssignCounts, Assigner, ListStore, cheapest};
+use crate::config::Config;
 use crate::engine::{COUNTING_SLOT as SLOT, Engine, FramePlan, LargestGrid, Mode, Session, nothing};
 use crate::gpu_interface::ClusteringState;
 use crate::inputs::Inputs;
@@ -32,14 +33,16 @@ fn count_once(
     let mut source = inputs.light_source(&run.lights)?;
     let input = source.at_frame(plan.frame);
     let lights = input.list.len() as u32;
-    let counting = Mode::counting(&run.config, lights);
+    // What is counted is the same in every store; of offsets the device tells the sum.
+    let config = &Config { lists: vec![ListStore::Offsets], ..run.config.clone() };
+    let counting = Mode::counting(config, lights);
     let mode = Mode { assigner: Assigner::Scatter, counting: false, ..counting };
     let largest = LargestGrid::of(std::slice::from_ref(plan));
-    if Engine::check(session, &run.config, largest, &mode).is_err() {
+    if Engine::check(session, config, largest, &mode).is_err() {
         // What scatter needs beside does not fit the device: nothing to count by, so brute force.
         return Ok(vec![]);
     }
-    let mut engine = Engine::new(session, &run.config, largest, mode)?;
+    let mut engine = Engine::new(session, config, largest, mode)?;
     engine.shaded = false;
     engine.render(session, SLOT, (plan, input), (&mut nothing, &mut nothing))?;
     let counts = |state: &ClusteringState| AssignCounts {

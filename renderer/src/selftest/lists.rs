@@ -56,7 +56,11 @@ fn lists_by(
     (method, grid): (Method, Grid),
     lights: &[PointLight],
 ) -> Result<Lists> {
-    let capacities = Capacities { visible_clusters: grid.cluster_count() as u32, light_indices: 6_000_000 };
+    let capacities = Capacities {
+        visible_clusters: grid.cluster_count() as u32,
+        light_indices: 6_000_000,
+        list_entries: 0,
+    };
     let bench = context.bench((assign, Test::Auto), Case { method, grid, lights, capacities })?;
     bench.leave(room);
     bench.compact(&bits(&grid))?;

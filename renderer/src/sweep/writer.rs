@@ -135,6 +135,7 @@ impl RunSink for Files<'_> {
         if run.assign == Assign::Auto {
             self.audience.note(&format!("{}: lights assigned by {}", run.name, result.assigner));
         }
+        notes_of_lists(run, &result).for_each(|note| self.audience.note(&note));
         self.noted(writer.write_memory(&result.memory))?;
         let finished = writer.finish(&manifest, &result.counts, &result.times);
         self.noted(finished)?;
@@ -142,6 +143,22 @@ impl RunSink for Files<'_> {
         self.finished = true;
         Ok(())
     }
+}
+
+/// What is good to know of lists that had to grow, or were too full for their lights.
+fn notes_of_lists(run: &PlannedRun, result: &RunResult) -> impl Iterator<Item = String> {
+    let name = &run.name;
+    let (bound, entries) = (run.config.lists[0].bound(), result.capacities.list_entries);
+    let grown = (entries > bound)
+        .then(|| format!("{name}: lists of {bound} entries each were too short and have {entries} since"));
+    let dropped: u64 = result.counts.iter().map(|frame| frame.counters.lights_dropped).sum();
+    let lossy = (dropped > 0).then(|| {
+        format!(
+            "warning: {name}: lists with room for {bound} lights dropped {dropped} in {} frames, and pictures lack their light",
+            result.counts.len()
+        )
+    });
+    grown.into_iter().chain(lossy)
 }
 
 fn not_begun() -> Error {

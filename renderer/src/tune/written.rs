@@ -23,6 +23,8 @@ pub fn configuration(config: &Config, chosen: &[Config]) -> Config {
         whole.assign = union(listed.iter().map(|run| run.assign[0]));
         whole.test = union(listed.iter().map(|run| run.test[0]));
         whole.clusters = union(listed.iter().map(|run| run.clusters[0]));
+        whole.lists = union(listed.iter().map(|run| run.lists[0]));
+        whole.compaction = union(listed.iter().map(|run| run.compaction[0]));
     }
     let scenes = whole.by_scene();
     let rules = scenes.iter().flat_map(|scene| rules_of_scene(scene, scenes.len() > 1, chosen)).collect();

@@ -1,6 +1,7 @@
 //! The product of axes, names on them, and rules that exclude.
 
 use super::*;
+use crate::assign::{Compaction, ListStore};
 use crate::config::{Assign, Exclude};
 use crate::shading::Shading;
 use std::collections::BTreeSet;
@@ -18,6 +19,8 @@ fn everything() -> Config {
         bounds: vec![Bounds::Measured.into(), Choice::Auto],
         slices: vec![Choice::Auto, SliceLaw::Geometric.into(), SliceLaw::Linear.into()],
         shading: vec![Shading::Prepass, Shading::Overdraw],
+        lists: vec![ListStore::Offsets, ListStore::Fixed(8)],
+        compaction: vec![Compaction::Ranks, Compaction::Atomic],
         ..Config::default()
     }
 }
@@ -30,7 +33,7 @@ fn runs() -> Vec<Config> {
 fn the_product_has_every_combination_that_differs_once() {
     // Of three tests, Persp has its own under two names and Ortho has not, and so it is of slices, which Ortho has none of;
     // the third method knows no ways of assignment. All are shaded in two ways.
-    assert_eq!(runs().len(), 2 * 2 * 2 * (2 * 2 * 2 * 2 * 2 + 2 * 3 * 2 * 2 + 1));
+    assert_eq!(runs().len(), 2 * 2 * 2 * ((2 * 2 * 2 * 2 * 2 + 2 * 3 * 2 * 2) * 2 * 2 + 1));
     for run in runs() {
         assert_eq!((run.by_scene(), run.cases()), (vec![run.clone()], vec![run]));
     }

@@ -11,7 +11,11 @@ fn lists_of(
     bits: &[u32],
 ) -> Vec<Lists> {
     let most = sets.iter().max_by_key(|lights| lights.len()).expect("a case has lights");
-    let room = Capacities { visible_clusters: grid.cluster_count() as u32, light_indices: 6_000_000 };
+    let room = Capacities {
+        visible_clusters: grid.cluster_count() as u32,
+        light_indices: 6_000_000,
+        list_entries: 0,
+    };
     let config = Config { assign: vec![assign], test: vec![test], ..config() };
     let mut bench = Bench::with_config(&config, method, grid, most, room);
     let plan = frame_of(grid);

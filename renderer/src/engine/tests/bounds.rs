@@ -97,7 +97,11 @@ fn bounds_equal_their_twin() {
         ("t-e-28", frustum_grid([17, 11, 1]), config()),
         ("indi-ortho-4", box_grid([23, 17, 29]), measuring()),
     ] {
-        let room = Capacities { visible_clusters: grid.cluster_count() as u32, light_indices: 100_000 };
+        let room = Capacities {
+            visible_clusters: grid.cluster_count() as u32,
+            light_indices: 100_000,
+            list_entries: 0,
+        };
         let method = method(name);
         let mut bench = Bench::with_config(&config, method, grid, &lights(50), room);
         let view = frame_of(grid).views[0];
@@ -155,7 +159,11 @@ pub(super) fn with_clusters(
     (method, grid): (Method, Grid),
     lights: &[PointLight],
 ) -> (Bench, Vec<u32>) {
-    let room = Capacities { visible_clusters: grid.cluster_count() as u32, light_indices: 6_000_000 };
+    let room = Capacities {
+        visible_clusters: grid.cluster_count() as u32,
+        light_indices: 6_000_000,
+        list_entries: 0,
+    };
     let config = Config { clusters: vec![Clusters::Visible.into()], ..config.clone() };
     let mut bench = Bench::with_config(&config, method, grid, lights, room);
     let bits = random_bits(grid.cluster_count(), 7, 11);

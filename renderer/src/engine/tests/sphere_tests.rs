@@ -34,8 +34,11 @@ impl Case {
 
     /// The list of each visible cluster, by brute force.
     fn lists(&self, method: Method, test: SphereTest) -> Lists {
-        let room =
-            Capacities { visible_clusters: self.grid.cluster_count() as u32, light_indices: 8_000_000 };
+        let room = Capacities {
+            visible_clusters: self.grid.cluster_count() as u32,
+            light_indices: 8_000_000,
+            list_entries: 0,
+        };
         let config = Config { test: vec![Test::Named(test)], ..config() };
         let mut bench = Bench::with_config(&config, method, self.grid, &self.lights, room);
         bench.compact(&self.bits);

@@ -6,7 +6,7 @@
 //! | depths between slices | [`SliceLaw`] | the configuration's, else geometric |
 //! | groups with lists | [`Clusters`]: those that hold a fragment, or all | the configuration's, else the name's |
 //! | bounds tested against lights | [`Bounds`] | the configuration's, else the name's |
-//! | list store | [`ListStore`] | |
+//! | list store | [`ListStore`] | the configuration's |
 //!
 //! [`GridMethod::plan`] makes the grids, [`capacities`] sizes their buffers, [`record()`] runs their passes, `lookup/clustered.glsl` walks
 //! their lists, [`twin`] does the same on the CPU. What the assignment works with is in [`crate::assign`].
@@ -22,14 +22,14 @@ mod properties;
 mod worked_values;
 
 pub use plan::{Division, plan};
-pub use record::{light_lists, record};
+pub use record::{compact, light_lists, record};
 pub use resources::capacities;
 
 use super::Sharing;
 use crate::assign::{Bounds, ClusterBounds, Clusters};
 use crate::geometry::CellShape;
 #[cfg(doc)]
-use crate::geometry::SliceLaw;
+use crate::{assign::ListStore, geometry::SliceLaw};
 use std::mem::discriminant;
 
 /// What the cells of a grid are (Gelderen sections 3.1, 4.2, 4.3).
@@ -132,13 +132,6 @@ impl Space {
     }
 }
 
-/// How the lists of clusters lie in memory.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ListStore {
-    /// Each behind the other, found by the sum of the lengths before.
-    Offsets,
-}
-
 /// A method that groups fragments by the cells of a grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GridMethod {
@@ -150,21 +143,19 @@ pub struct GridMethod {
     pub clusters: Clusters,
     /// What of the clusters is tested against lights where the configuration leaves it to the name.
     pub bounds: Bounds,
-    /// How the lists of the clusters lie in memory.
-    pub lists: ListStore,
 }
 
 impl GridMethod {
-    /// The method with lists by offsets for visible clusters, and implicit bounds.
+    /// The method with lists for visible clusters, and implicit bounds.
     pub const fn new(sharing: Sharing, space: Space) -> Self {
         let (clusters, bounds) = (Clusters::Visible, Bounds::Implicit);
-        Self { sharing, space, clusters, bounds, lists: ListStore::Offsets }
+        Self { sharing, space, clusters, bounds }
     }
 
     /// Whether the two differ in their sizes alone.
     pub fn is_like(&self, other: &Self) -> bool {
-        let Self { sharing, space, clusters, bounds, lists } = *self;
-        (sharing, clusters, bounds, lists) == (other.sharing, other.clusters, other.bounds, other.lists)
+        let Self { sharing, space, clusters, bounds } = *self;
+        (sharing, clusters, bounds) == (other.sharing, other.clusters, other.bounds)
             && discriminant(&space) == discriminant(&other.space)
     }
 }

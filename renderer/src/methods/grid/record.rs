@@ -3,15 +3,17 @@
 //! ```text
 //! Depth ──mark, compact──> VisibleClusters ─┬─(bounds)─┐
 //! (all clusters) ──list_clusters────────────┘          │
-//! Lights ──transform, cull, build──────────────────────┴──count, offsets, assign──> LightLists
+//! Lights ──transform, cull, build──────────────────────┴──(count), (offsets), assign──> LightLists
 //! (cells as boxes) ──build_boxes, where the projection is another──┘
 //! ```
+//!
+//! Only lists by offsets need these, and brute force counts for no others.
 
-use crate::assign::{Assigner, ClusterBounds, Clusters};
+use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction};
 use crate::pass::Recorder;
 use crate::passes::{
     Depth, Frame, LightLists, Lights, VisibleClusters, assign, bounds, build_boxes, cull_lights, depth,
-    hierarchy, list_clusters, mark, scan,
+    hierarchy, list_clusters, mark, scan, take_places,
 };
 
 /// Records all clusterings; the depth that comes back is what marking needed of it.
@@ -44,7 +46,15 @@ fn visible_clusters(
     for view in frame.clusterings[clustering].views.clone() {
         mark::record(r, frame, (clustering, view), depth);
     }
-    (depth, scan::compact(r, frame, clustering))
+    (depth, compact(r, frame, clustering))
+}
+
+/// Lists the clusters that are marked.
+pub fn compact(r: &mut Recorder, frame: &Frame, clustering: usize) -> VisibleClusters {
+    match frame.compaction {
+        Compaction::Ranks => scan::compact(r, frame, clustering),
+        Compaction::Atomic => take_places::record(r, frame, clustering),
+    }
 }
 
 /// The depth of the clustering's views, where it is not there yet.
@@ -78,7 +88,12 @@ pub fn light_lists(r: &mut Recorder, frame: &Frame, lights: Lights, visible: Vis
         }
         Assigner::Scatter => cull_lights::cull_lights(r, frame, lights, visible),
     }
-    assign::count_lights(r, frame, visible);
-    scan::light_offsets(r, frame, visible);
+    let has_offsets = frame.lists.has_offsets();
+    if has_offsets || frame.assigner != Assigner::Brute {
+        assign::count_lights(r, frame, visible);
+    }
+    if has_offsets {
+        scan::light_offsets(r, frame, visible);
+    }
     assign::assign_lights(r, frame, visible)
 }

@@ -16,41 +16,61 @@ pub struct Column {
     pub of: fn(&FrameRow) -> Option<f64>,
     /// The column of `frames.csv` that it is the mean of, where that is a time.
     pub time: Option<&'static str>,
+    /// Whether it is told only where it is not 0 in some run.
+    pub exception: bool,
 }
 
 /// The columns, in their order.
-pub const COLUMNS: [Column; 6] = [
+pub const COLUMNS: [Column; 7] = [
     Column {
         name: "visible_clusters",
         heading: "visible\nclusters",
         of: |row| Some(row.visible_clusters as f64),
         time: None,
+        exception: false,
     },
     Column {
         name: "light_indices",
         heading: "light\nindices",
         of: |row| Some(row.light_indices as f64),
         time: None,
+        exception: false,
+    },
+    Column {
+        name: "lights_dropped",
+        heading: "lights\ndropped",
+        of: |row| Some(row.lights_dropped as f64),
+        time: None,
+        exception: true,
     },
     Column {
         name: "lighting_computations",
         heading: "lighting\ncomputations",
         of: |row| Some(row.lighting_computations as f64),
         time: None,
+        exception: false,
     },
     Column {
         name: "clustering_ms",
         heading: "clustering\nms",
         of: |row| row.gpu_ms_cluster,
         time: Some("gpu_ms_cluster"),
+        exception: false,
     },
     Column {
         name: "shading_ms",
         heading: "shading\nms",
         of: |row| row.gpu_ms_shade,
         time: Some("gpu_ms_shade"),
+        exception: false,
     },
-    Column { name: "total_ms", heading: "total\nms", of: |row| row.gpu_ms_frame, time: Some("gpu_ms_frame") },
+    Column {
+        name: "total_ms",
+        heading: "total\nms",
+        of: |row| row.gpu_ms_frame,
+        time: Some("gpu_ms_frame"),
+        exception: false,
+    },
 ];
 
 /// Something for each column of the closing table; `None` where there is nothing to tell.
@@ -85,7 +105,8 @@ impl<T> Default for ByColumn<T> {
 impl Values {
     /// Means over frames.
     pub fn mean(rows: &[FrameRow]) -> Self {
-        Self(COLUMNS.map(|column| mean(rows.iter().filter_map(column.of))))
+        let told = |column: &Column, mean: &f64| !column.exception || *mean != 0.0;
+        Self(COLUMNS.map(|column| mean(rows.iter().filter_map(column.of)).filter(|mean| told(&column, mean))))
     }
 
     /// The ratios to `reference`.
@@ -112,8 +133,9 @@ impl Intervals {
 
 impl<T: Copy + Serialize> Serialize for ByColumn<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(COLUMNS.len()))?;
-        self.iter().try_for_each(|(column, value)| map.serialize_entry(column.name, &value))?;
+        let told = || self.iter().filter(|(column, value)| !column.exception || value.is_some());
+        let mut map = serializer.serialize_map(Some(told().count()))?;
+        told().try_for_each(|(column, value)| map.serialize_entry(column.name, &value))?;
         map.end()
     }
 }
@@ -138,6 +160,7 @@ impl Column {
         };
         match ratio {
             Some(ratio) => format!("{value} ({})", with_interval(ratio, of_ratio, [2, 3])),
+            None if self.exception => value,
             None => format!("{value}    -  "),
         }
     }

@@ -9,7 +9,7 @@ use super::run_times::MeasuredTimes;
 use crate::config::{Axis, Labels, Role};
 use crate::methods::Method;
 use crate::stats::Interval;
-use columns::{COLUMNS, ratio_cell};
+use columns::{COLUMNS, Column, ratio_cell};
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 use serde::Serialize;
 use serde::ser::Serializer;
@@ -89,6 +89,14 @@ impl Summary {
         Axis::told().filter(needed).collect()
     }
 
+    /// The columns of numbers: those of exceptions where there are any.
+    fn columns(&self) -> Vec<&'static Column> {
+        let told = |column: &&Column| {
+            !column.exception || self.rows.iter().any(|row| row.means.get(column.name).is_some())
+        };
+        COLUMNS.iter().filter(told).collect()
+    }
+
     /// Writes the table as CSV: what names a row, means, the reference, ratios; then how many temporal runs there were, and
     /// the ends of the intervals of times and of their ratios.
     ///
@@ -98,9 +106,10 @@ impl Summary {
         let mut csv = csv::Writer::from_writer(out);
         let naming = self.naming_axes();
         let header = naming.iter().map(|axis| axis.column.to_owned()).chain(["frames".to_owned()]);
-        let means = COLUMNS.map(|column| column.name.to_owned());
-        let ratios = COLUMNS.map(|column| format!("{}_ratio", column.name));
-        let timed = || COLUMNS.iter().filter(|column| column.time.is_some());
+        let columns = self.columns();
+        let means = columns.iter().map(|column| column.name.to_owned());
+        let ratios = columns.iter().map(|column| format!("{}_ratio", column.name));
+        let timed = || columns.iter().filter(|column| column.time.is_some());
         let ends = |what: &'static str| {
             timed().flat_map(move |column| ["low", "high"].map(|end| format!("{}{what}_{end}", column.name)))
         };
@@ -109,8 +118,8 @@ impl Summary {
         for row in &self.rows {
             let names =
                 naming.iter().map(|axis| row.labels.get(axis).to_owned()).chain([row.frames.to_string()]);
-            let means = row.means.iter().map(|(column, mean)| column.cell(mean));
-            let ratios = row.ratios.iter().map(|(_, ratio)| ratio_cell(ratio));
+            let means = columns.iter().map(|column| column.cell(row.means.get(column.name)));
+            let ratios = columns.iter().map(|column| ratio_cell(row.ratios.get(column.name)));
             let intervals = [row.intervals, row.ratio_intervals];
             let ends = intervals.iter().flat_map(|intervals| {
                 timed().flat_map(|column| {
@@ -156,9 +165,10 @@ impl fmt::Display for Summary {
         table.load_preset(TABLE_LINES).set_content_arrangement(ContentArrangement::Disabled);
         let naming = self.naming_axes();
         let names = naming.iter().map(|axis| axis.name);
-        table.set_header(names.chain(COLUMNS.map(|column| column.heading)));
+        let columns = self.columns();
+        table.set_header(names.chain(columns.iter().map(|column| column.heading)));
         for row in &self.rows {
-            let cells = COLUMNS.iter().map(|column| {
+            let cells = columns.iter().map(|column| {
                 let name = column.name;
                 column.shown(
                     (row.means.get(name), row.intervals.get(name)),

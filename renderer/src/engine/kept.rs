@@ -1,0 +1,126 @@
+//! Light lists as their store keeps them, read back and put in the order of their clusters: whatever the store, and whichever
+//! places clusters have, what comes out is the same.
+
+use crate::assign::ListStore;
+use crate::buffers::ClusteringSizes;
+use crate::gpu_interface::ClusteringState;
+use std::ops::Range;
+
+/// What was read of the lists of one clustering, each part as far as the store has it.
+pub struct KeptLists<'a> {
+    /// How the lists are kept.
+    pub sizes: &'a ClusteringSizes,
+    /// The cluster that has each place among the lists.
+    pub clusters: &'a [u32],
+    /// Where each list begins, and in the store by offsets where the last one ends.
+    pub offsets: &'a [u32],
+    /// How many lights each list should have, in stores that keep it.
+    pub lengths: &'a [u32],
+    /// The lights.
+    pub indices: &'a [u32],
+}
+
+impl KeptLists<'_> {
+    /// How many words there are of clusters, offsets, lengths and indices.
+    pub fn words(sizes: &ClusteringSizes, state: &ClusteringState) -> [u64; 4] {
+        let visible = u64::from(state.visible);
+        match sizes.lists {
+            ListStore::Offsets => [visible, visible + 1, 0, state.index_total.into()],
+            ListStore::Fixed(_) => [visible, 0, visible, visible * u64::from(sizes.list_bound())],
+            ListStore::Capped(_) => [visible, visible, visible, state.index_total.into()],
+        }
+    }
+
+    /// Places by ascending cluster.
+    pub fn order(&self) -> Vec<usize> {
+        let mut places: Vec<usize> = (0..self.clusters.len()).collect();
+        places.sort_by_key(|&place| self.clusters[place]);
+        places
+    }
+
+    /// Offsets and lights of the lists at these places, one behind the other.
+    pub fn in_order(&self, order: &[usize]) -> (Vec<u32>, Vec<u32>) {
+        let (mut offsets, mut indices) = (vec![0], Vec::with_capacity(self.indices.len()));
+        for &place in order {
+            indices.extend_from_slice(&self.indices[self.range(place)]);
+            offsets.push(indices.len() as u32);
+        }
+        (offsets, indices)
+    }
+
+    /// Where the list at a place lies among the indices.
+    fn range(&self, place: usize) -> Range<usize> {
+        match self.sizes.lists {
+            ListStore::Offsets => self.offsets[place] as usize..self.offsets[place + 1] as usize,
+            ListStore::Fixed(_) => {
+                let entries = self.sizes.list_bound();
+                let first = place * entries as usize;
+                first..first + self.lengths[place].min(entries) as usize
+            }
+            ListStore::Capped(_) => {
+                let first = self.offsets[place] as usize;
+                first..first + self.lengths[place] as usize
+            }
+        }
+    }
+
+    /// How many lights all lists should have; of capped ones, those that were not dropped.
+    pub fn wanted(&self, state: &ClusteringState) -> u64 {
+        match self.sizes.lists {
+            ListStore::Offsets | ListStore::Capped(_) => state.index_total.into(),
+            ListStore::Fixed(_) => self.lengths.iter().map(|&length| u64::from(length)).sum(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction};
+    use crate::measure::Capacities;
+
+    fn sizes(lists: ListStore) -> ClusteringSizes {
+        ClusteringSizes {
+            clusters: 10,
+            listed: Clusters::Visible,
+            bounds: ClusterBounds::Cell,
+            boxed: false,
+            compaction: Compaction::Atomic,
+            lists,
+            slice_planes: 0,
+            lights: 100,
+            capacities: Capacities { visible_clusters: 10, light_indices: 20, list_entries: 3 },
+            assigner: Assigner::Brute,
+            counting: true,
+            pixels: 1,
+        }
+    }
+
+    #[test]
+    fn every_store_has_the_same_lists_by_ascending_cluster() {
+        let clusters = &[7, 2, 5];
+        let state = ClusteringState { visible: 3, index_total: 4, ..ClusteringState::default() };
+        for (store, [offsets, lengths, indices]) in [
+            (ListStore::Offsets, [&[0, 1, 1, 4][..], &[], &[9, 4, 6, 8]]),
+            (ListStore::Fixed(3), [&[], &[1, 0, 3], &[9, 0, 0, 0, 0, 0, 4, 6, 8]]),
+            (ListStore::Capped(3), [&[3, 0, 0], &[1, 0, 3], &[4, 6, 8, 9]]),
+        ] {
+            let sizes = &sizes(store);
+            let kept = KeptLists { sizes, clusters, offsets, lengths, indices };
+            let read = [clusters.len(), offsets.len(), lengths.len(), indices.len()];
+            assert_eq!(KeptLists::words(sizes, &state), read.map(|words| words as u64), "{store}");
+            let order = kept.order();
+            assert_eq!(order, [1, 2, 0]);
+            assert_eq!(kept.in_order(&order), (vec![0, 0, 3, 4], vec![4, 6, 8, 9]), "{store}");
+            assert_eq!(kept.wanted(&state), 4, "{store}");
+        }
+    }
+
+    #[test]
+    fn lists_longer_than_their_entries_say_what_they_lack() {
+        let sizes = &sizes(ListStore::Fixed(2));
+        let kept = KeptLists { sizes, clusters: &[1], offsets: &[], lengths: &[5], indices: &[3, 4, 6] };
+        assert_eq!(kept.in_order(&[0]), (vec![0, 3], vec![3, 4, 6]));
+        assert_eq!(kept.wanted(&ClusteringState::default()), 5);
+    }
+}
