@@ -138,7 +138,7 @@ fn runs_are_joined_by_test_where_a_set_has_several_and_across_tests_where_not() 
     let comparison = compare(&a, &b).unwrap();
     assert_eq!(comparison.runs.len(), 1);
     assert!(
-        comparison.runs[0].run.ends_with(", brute, exact, visible, implicit, geometric"),
+        comparison.runs[0].run.ends_with(", brute, exact, visible, implicit, geometric, prepass"),
         "{}",
         comparison.runs[0].run
     );
