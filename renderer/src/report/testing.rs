@@ -1,6 +1,8 @@
 //! Runs made up for tests.
 
 use super::results::{Distribution, Frames, LightingName, ResultSet, Run, Setting, metric};
+use super::way::Way;
+use crate::geometry::CellShape;
 use crate::machine::{Conditions, Machine};
 use crate::methods::Method;
 use crate::stats::Samples;
@@ -74,6 +76,14 @@ pub fn timed(mut run: Run, metric: &'static str, factors: [f64; 3]) -> Run {
     let of_run = |factor: f64| run.frames.values(metric).map(|time| time * factor / least).collect();
     let samples = Samples::new(FRAMES.len(), factors.map(of_run).to_vec()).unwrap();
     run.times.insert(metric, samples);
+    run
+}
+
+/// The run by another test of light against cluster.
+pub fn by_test(mut run: Run, test: &str) -> Run {
+    if run.method.kind().cells == Some(CellShape::Frustum) {
+        run.setting.way = Way::named("brute", test, run.method);
+    }
     run
 }
 
