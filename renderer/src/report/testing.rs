@@ -43,6 +43,8 @@ pub fn run(method: &str, views: u32, lights: u32, value: impl Fn(&str, u32) -> O
     Run {
         name: format!("{method}_{lights}"),
         setting: setting(views),
+        extent: None,
+        light_box_m: None,
         method,
         lighting: LightingName { count: Some(lights), label: format!("{lights} lights"), sha256: None },
         device: ["device".into(), "driver 1".into(), "1.3".into()],

@@ -2,6 +2,7 @@
 
 mod ranked;
 mod ratios;
+mod scenes;
 mod sizes;
 mod spread;
 
@@ -12,7 +13,8 @@ use crate::report::tables::Table;
 /// The tables that have rows.
 pub fn all(set: &ResultSet) -> Vec<Table> {
     let evaluations = Evaluation::all(set);
-    let mut tables = vec![sizes::table(&evaluations), spread::table(&evaluations)];
+    let mut tables =
+        vec![scenes::table(&evaluations), sizes::table(&evaluations), spread::table(&evaluations)];
     tables.extend(ranked::tables(set, &evaluations));
     tables.push(ratios::measured(&evaluations));
     tables.retain(|table| !table.rows.is_empty());

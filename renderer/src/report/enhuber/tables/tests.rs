@@ -1,6 +1,7 @@
 //! Tables of made-up results.
 
 use super::all;
+use crate::extent::Extent;
 use crate::report::enhuber::testing::{costs, elsewhere, everything, of, slower};
 use crate::report::results::{Run, metric};
 use crate::report::tables::{Row, Table};
@@ -27,10 +28,12 @@ fn close(number: Option<f64>, expected: f64) -> bool {
 
 #[test]
 fn every_table_has_rows_and_a_number_or_gap_a_column() {
-    let set = set(everything(costs).into_iter().map(timed_thrice).collect());
+    let seen = |run: Run| Run { extent: Some(extent()), light_box_m: Some([3.0, 2.0, 1.0]), ..run };
+    let set = set(everything(costs).into_iter().map(timed_thrice).map(seen).collect());
     let tables = all(&set);
     let ids: Vec<&str> = tables.iter().map(|table| table.id).collect();
     let wanted = [
+        "enhuber-scenes",
         "enhuber-sizes",
         "enhuber-variability",
         "enhuber-4.4",
@@ -48,6 +51,28 @@ fn every_table_has_rows_and_a_number_or_gap_a_column() {
         assert!(!table.caption.contains("  "), "{}", table.caption);
     }
     assert!(all(&crate::report::testing::set(vec![])).is_empty(), "what is printed alone is no table");
+}
+
+fn extent() -> Extent {
+    Extent {
+        triangles: 7,
+        vertices: 9,
+        models: 2,
+        scene_m: [4.0, 5.0, 6.0],
+        model_mean_m: [1.0, 2.0, 3.0],
+        model_variance_m2: [0.1, 0.2, 0.3],
+        path_m: [0.5, 0.25, 0.125],
+        path_frames: 1200,
+    }
+}
+
+#[test]
+fn a_scene_is_told_by_its_sizes() {
+    let seen = |run: Run| Run { extent: Some(extent()), ..run };
+    let scenes = table("enhuber-scenes", everything(costs).into_iter().map(seen).collect());
+    let numbers: Vec<f64> = scenes.rows[0].numbers.iter().flatten().copied().collect();
+    let expected = [7.0, 9.0, 4.0, 5.0, 6.0, 2.0, 1.0, 2.0, 3.0, 0.1, 0.2, 0.3, 0.5, 0.25, 0.125, 1200.0];
+    assert_eq!((scenes.rows.len(), numbers.as_slice()), (1, &expected[..]));
 }
 
 #[test]
