@@ -1,7 +1,7 @@
 //! What a replay reads: scene, recording, lights.
 
 use crate::config::Config;
-
+use crate::extent::Extent;
 use crate::lights::rain::RainParameters;
 use crate::lights::{
     self, Corners, Generated, GeneratorKind, LightSource, Lighting, LightsFile, LightsFrom, PointLight,
@@ -72,6 +72,11 @@ impl Inputs {
             (_, Some(lights)) => Ok(Box::new(StaticLights(lights.clone()))),
             (_, None) => Err(Error::Internal("static lights were not loaded".into())),
         }
+    }
+
+    /// How large what is seen is.
+    pub fn extent(&self) -> Extent {
+        Extent::of(&self.scene, &self.recording)
     }
 
     /// What is told of lights that are made; `None` of others.

@@ -24,6 +24,7 @@ pub mod drawables;
 pub mod engine;
 pub mod error;
 pub mod export;
+pub mod extent;
 pub mod frame;
 pub mod geometry;
 pub mod gpu_interface;

@@ -29,6 +29,7 @@ fn write_run(out: &Path, scene: [&str; 2], views: u32, method: &str, lights: u32
         config: Config { resolution: [32, 20], ..Config::default() },
         scene: Source { name: scene[0].into(), sha256: "0".into() },
         recording: Source { name: scene[1].into(), sha256: "1".into() },
+        extent: None,
         lights_file: None,
         generated: None,
         frame_count: Some(FRAMES.len()),

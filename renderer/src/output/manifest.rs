@@ -2,6 +2,7 @@
 
 use super::strict::{refuse, shown};
 use crate::config::Config;
+use crate::extent::Extent;
 use crate::lights::{Generated, GeneratorKind, Lighting};
 use crate::machine::{Conditions, Machine};
 use crate::measure::{Capacities, Extremes, GrowthEvent, Timing};
@@ -47,6 +48,9 @@ pub struct Manifest {
     pub scene: Source,
     /// The recording replayed.
     pub recording: Source,
+    /// How large scene, models and the camera's way are; `None` of earlier versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub extent: Option<Extent>,
     /// The file of static lights, where they come from one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lights_file: Option<Source>,

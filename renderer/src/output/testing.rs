@@ -23,6 +23,7 @@ pub(super) fn manifest() -> Manifest {
         assigned_by: "brute".into(),
         scene: Source { name: "street".into(), sha256: "00".into() },
         recording: Source { name: "bistro-vive".into(), sha256: "11".into() },
+        extent: None,
         lights_file: None,
         generated: None,
         frame_count: Some(1),

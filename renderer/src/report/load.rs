@@ -132,6 +132,8 @@ fn read_run(Found { name, directory, manifest: file }: &Found) -> Result<Run> {
     Ok(Run {
         name: name.clone(),
         setting: manifest::setting(file, views, method)?,
+        extent: file.extent.clone(),
+        light_box_m: manifest::light_box(file),
         method,
         lighting: manifest::lighting(file),
         device: [file.device.name.clone(), file.device.driver.clone(), file.device.api.clone()],

@@ -14,6 +14,7 @@
 //!   indi-encl.csv        Indi against Encl by every way of assignment; tests.csv: tests of light against cluster
 //!   analysis-times.csv, analysis-lines.csv, analysis-classes.csv, analysis-memory.csv
 //!                        means and deviations, slopes and offsets over lights, rankings of methods, memory
+//!   PAPER-TABLE.csv      a paper's own tables, where its methods were run
 //!   groups.csv           groups by lights, in bins, of every frame that has pictures
 //!   figures/ID.svg .csv  each figure, and the numbers plotted
 //! ```
@@ -23,6 +24,7 @@ pub mod assign_bench;
 mod bins;
 mod chart;
 mod claim;
+mod enhuber;
 mod figure;
 mod format;
 mod gelderen;
@@ -49,12 +51,13 @@ use crate::{Error, Result};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use figure::Figure;
-use paper::PAPERS;
+use paper::papers;
 use results::ResultSet;
 use serde::{Serialize, Serializer};
 use std::fmt;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use tables::Table;
 
 /// What a report holds, for the closing lines.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -88,11 +91,12 @@ pub fn write_report(directories: &[PathBuf], out: Option<&Path>) -> Result<Repor
     let galleries = pictures::galleries(&set)?;
     let claims = claims(&set);
     let tables = tables::all(&set);
+    let paper_tables: Vec<Table> = papers(&set).into_iter().flat_map(|paper| (paper.tables)(&set)).collect();
     let analysis = page::Analysis { figures: analysis::figures(&set)?, tables: analysis::tables(&set) };
     for figure in figures.iter().chain(&analysis.figures).chain(&galleries) {
         write_figure(&out.join("figures"), figure)?;
     }
-    for table in tables.iter().chain(&analysis.tables) {
+    for table in tables.iter().chain(&analysis.tables).chain(&paper_tables) {
         write_whole(&out.join(format!("{}.csv", table.id)), |file| table.write_csv(file))?;
     }
     write_whole(&out.join("runs.csv"), |file| page::write_runs_csv(file, &set))?;
@@ -109,6 +113,7 @@ pub fn write_report(directories: &[PathBuf], out: Option<&Path>) -> Result<Repor
             galleries: &galleries,
             claims: &claims,
             tables: &tables,
+            paper_tables: &paper_tables,
         },
     );
     write_whole(&page, |file| file.write_all(html.as_bytes()))?;
@@ -123,15 +128,15 @@ pub fn write_report(directories: &[PathBuf], out: Option<&Path>) -> Result<Repor
     Ok(Report { page, runs: set.runs.len(), older: set.older, drawn, missing, claims })
 }
 
-/// Every figure of every paper.
+/// Every figure of the papers whose methods were run.
 fn figures(set: &ResultSet) -> Result<Vec<Figure>> {
-    let papers = PAPERS.iter().map(|paper| (paper.figures)(set)).collect::<Result<Vec<_>>>()?;
-    Ok(papers.into_iter().flatten().collect())
+    let drawn = papers(set).into_iter().map(|paper| (paper.figures)(set)).collect::<Result<Vec<_>>>()?;
+    Ok(drawn.into_iter().flatten().collect())
 }
 
-/// Every claim of every paper, checked.
+/// The claims of those papers, checked.
 fn claims(set: &ResultSet) -> Vec<Claim> {
-    claim::check(PAPERS.iter().flat_map(|paper| paper.claims), set)
+    papers(set).into_iter().flat_map(|paper| claim::check(paper.claims, (paper.judged)(set))).collect()
 }
 
 /// Writes a figure's SVG and CSV; of a figure without data, removes those of an earlier report.

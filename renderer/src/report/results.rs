@@ -1,6 +1,7 @@
 //! What result directories hold, as types that figures and claims ask.
 
 use super::way::Way;
+use crate::extent::Extent;
 use crate::machine::{Conditions, Machine};
 use crate::methods::{Method, Sharing, Space};
 use crate::output::{ColumnTimes, FrameRow, MemoryRow, Older};
@@ -86,6 +87,10 @@ pub struct Run {
     pub name: String,
     /// What it shares with others.
     pub setting: Setting,
+    /// How large what it saw is.
+    pub extent: Option<Extent>,
+    /// Size of the box around the lights that were made, metres; `None` of turned boxes and of other lights.
+    pub light_box_m: Option<[f64; 3]>,
     /// How lights were found.
     pub method: Method,
     /// Where they came from.

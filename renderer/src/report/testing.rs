@@ -1,6 +1,8 @@
 //! Runs made up for tests.
 
 use super::results::{Distribution, Frames, LightingName, ResultSet, Run, Setting, metric};
+use super::way::Way;
+use crate::geometry::CellShape;
 use crate::machine::{Conditions, Machine};
 use crate::methods::Method;
 use crate::stats::Samples;
@@ -41,6 +43,8 @@ pub fn run(method: &str, views: u32, lights: u32, value: impl Fn(&str, u32) -> O
     Run {
         name: format!("{method}_{lights}"),
         setting: setting(views),
+        extent: None,
+        light_box_m: None,
         method,
         lighting: LightingName { count: Some(lights), label: format!("{lights} lights"), sha256: None },
         device: ["device".into(), "driver 1".into(), "1.3".into()],
@@ -74,6 +78,14 @@ pub fn timed(mut run: Run, metric: &'static str, factors: [f64; 3]) -> Run {
     let of_run = |factor: f64| run.frames.values(metric).map(|time| time * factor / least).collect();
     let samples = Samples::new(FRAMES.len(), factors.map(of_run).to_vec()).unwrap();
     run.times.insert(metric, samples);
+    run
+}
+
+/// The run by another test of light against cluster.
+pub fn by_test(mut run: Run, test: &str) -> Run {
+    if run.method.kind().cells == Some(CellShape::Frustum) {
+        run.setting.way = Way::named("brute", test, run.method);
+    }
     run
 }
 

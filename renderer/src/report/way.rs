@@ -42,6 +42,13 @@ impl Way {
         found.map_or_else(String::new, |(axis, value)| value.clone().unwrap_or_else(|| own(axis, method)))
     }
 
+    /// The same way, but for the axis of a name: on that it is the thesis's own.
+    pub fn without(&self, name: &str) -> Self {
+        let kept =
+            |(axis, value): (&'static Axis, &Option<String>)| value.clone().filter(|_| axis.name != name);
+        Self { values: axes().zip(&self.values).map(kept).collect() }
+    }
+
     /// A way by the names of its first two axes.
     #[cfg(test)]
     pub fn named(assign: &str, test: &str, method: Method) -> Self {
@@ -86,6 +93,13 @@ mod tests {
         assert_eq!(way("brute", "auto", "all-lights"), Way::default());
         assert_ne!(way("brute", "hs", "indi-ortho-4"), Way::default());
         assert_eq!(Way::default().value("test", "indi-ortho-4".parse().unwrap()), "box");
+    }
+
+    #[test]
+    fn an_axis_can_be_left_to_the_thesis() {
+        let both = way("scatter", "exact", "indi-persp-64");
+        assert_eq!(both.without("test"), way("scatter", "hs", "indi-persp-64"));
+        assert_eq!(both.without("assign").without("test"), Way::default());
     }
 
     #[test]

@@ -314,18 +314,20 @@ impl Scene {
 
     /// World-space bounds of all instances; `None` for an empty scene.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
-        self.instances
-            .iter()
-            .flat_map(|instance| {
-                let bounds = self.primitives[instance.primitive as usize].bounds;
-                (0..8).map(move |corner| {
-                    let pick = |bit: u32, axis: usize| {
-                        if corner >> bit & 1 == 0 { bounds.min[axis] } else { bounds.max[axis] }
-                    };
-                    let object = Vec3::new(pick(0, 0), pick(1, 1), pick(2, 2));
-                    instance.world_from_object.transform_point3(object.as_dvec3())
-                })
-            })
-            .fold(None, |all, p| Some(all.map_or((p, p), |(lo, hi): (DVec3, DVec3)| (lo.min(p), hi.max(p)))))
+        let boxes = self.instances.iter().map(|instance| self.bounds_of(instance));
+        boxes.reduce(|(low, high), (lower, higher)| (low.min(lower), high.max(higher)))
+    }
+
+    /// World-space bounds of the box around an instance's primitive.
+    pub fn bounds_of(&self, instance: &Instance) -> (DVec3, DVec3) {
+        let bounds = self.primitives[instance.primitive as usize].bounds;
+        let corner = |corner: u32| {
+            let pick = |axis: usize| {
+                if corner >> axis & 1 == 0 { bounds.min[axis] } else { bounds.max[axis] }
+            };
+            instance.world_from_object.transform_point3(Vec3::new(pick(0), pick(1), pick(2)).as_dvec3())
+        };
+        let first = corner(0);
+        (1..8).map(corner).fold((first, first), |(low, high), at| (low.min(at), high.max(at)))
     }
 }

@@ -74,6 +74,7 @@ impl Files<'_> {
             assigned_by: result.assigner.to_string(),
             scene: Source { name: scene.name.clone(), sha256: scene.sha256.clone() },
             recording: Source { name: recording.name().to_owned(), sha256: recording.sha256().to_owned() },
+            extent: Some(self.inputs.extent()),
             lights_file: self.lights_file(),
             generated: self.inputs.generated(&run.lights)?,
             frame_count: Some(result.counts.len()),

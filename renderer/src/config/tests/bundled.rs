@@ -70,6 +70,33 @@ fn bundled_sweeps_are_the_experiments_of_the_thesis() {
     assert!(small.iter().all(|name| all.contains(name)));
 }
 
+#[test]
+fn bundled_evaluations_are_the_steps_of_enhuber() {
+    // A scene's sizes of tiles and clusters, and of boxes, under 10 000 lights; and how often there are fewer lights.
+    for (file, frusta, boxes, fewer) in
+        [("enhuber", 14 + 4 * 30, 7 + 1, 5), ("enhuber-ci", 6 + 4 * 4, 3 + 1, 2)]
+    {
+        let config = Config::resolve(Some(&repository(&format!("configs/{file}.json"))), Layer::default());
+        let parts = crate::sweep::parts(&config.unwrap()).unwrap();
+        assert_eq!(parts.len(), 3, "{file}: scenes");
+        for part in &parts {
+            let count = |of: &dyn Fn(&str) -> bool| part.runs.iter().filter(|run| of(&run.name)).count();
+            // Two methods by 17 further tests, eight under fewer lights.
+            assert_eq!(part.runs.len(), frusta + boxes + 2 * 17 + 8 * fewer, "{file}");
+            assert_eq!(count(&|name| name.ends_with("_10000_hs+sat-n")), frusta, "{file}");
+            assert_eq!(count(&|name| name.starts_with("g-") && !name.ends_with("_box")), 0, "{file}");
+            assert_eq!(
+                count(&|name| name.starts_with("m_") && name.ends_with("_exact")),
+                fewer + 1,
+                "{file}"
+            );
+            let tests: std::collections::BTreeSet<&str> =
+                part.runs.iter().filter_map(|run| run.name.rsplit('_').next()).collect();
+            assert_eq!(tests.len(), 18 + 2, "{file}: {tests:?}");
+        }
+    }
+}
+
 /// `MANYLIGHT_BLESS=1` rewrites the schema.
 #[test]
 fn the_schema_is_in_step() {

@@ -85,7 +85,8 @@ pub fn figures(set: &ResultSet) -> Vec<Figure> {
     found
 }
 
-fn lines(setting: &Setting, fits: &[Fit]) -> Chart {
+/// Dots and lines: a panel a part of the frame.
+pub fn lines(setting: &Setting, fits: &[Fit]) -> Chart {
     let named: Vec<(Method, Key)> = fits
         .iter()
         .filter(|fit| fit.part == Part::All)
@@ -135,7 +136,8 @@ fn fitted(fit: &Fit, key: &Key) -> Series {
     Series { name: format!("{}, line", key.label), look: key.look, points }
 }
 
-fn bars(setting: &Setting, fits: &[Fit]) -> Chart {
+/// Slopes, and offsets below: a panel a part of the frame.
+pub fn bars(setting: &Setting, fits: &[Fit]) -> Chart {
     let panel = |part, of: fn(&Fit) -> Measured| {
         let bar = |fit: &Fit| {
             let number = of(fit);

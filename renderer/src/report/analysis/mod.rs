@@ -17,6 +17,10 @@ mod memory;
 mod ranking;
 mod spread;
 
+pub use growth::{Fit, bars as slopes_and_offsets, fits, lines};
+pub use ranking::{anywhere, table as classes, together};
+pub use spread::{bar, chart as times, deviation, relative};
+
 use super::chart::{Bar, Chart, Key, Look, Plot, palette::Color};
 use super::figure::Figure;
 use super::results::{LightingName, ResultSet, Run, Setting, metric};
@@ -27,7 +31,7 @@ use crate::stats::{Interval, Measured};
 
 /// A part of the frame's GPU time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Part {
+pub enum Part {
     /// Everything before shading: culling, prepass, marking, compaction, lights, lists. Of several samples a pixel also
     /// the resolve, which no column tells apart.
     Assignment,
@@ -38,9 +42,10 @@ enum Part {
 }
 
 impl Part {
-    const EVERY: [Self; 3] = [Self::Assignment, Self::Shading, Self::All];
+    pub const EVERY: [Self; 3] = [Self::Assignment, Self::Shading, Self::All];
 
-    const fn name(self) -> &'static str {
+    /// As tables name it.
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Assignment => "assignment",
             Self::Shading => "shading",
@@ -56,12 +61,13 @@ impl Part {
         }
     }
 
-    fn key(self) -> Key {
+    /// What explains its colour.
+    pub fn key(self) -> Key {
         Key { label: self.name().into(), look: Look::plain(self.color()) }
     }
 
     /// Its mean over the frames of a run, milliseconds; `None` of a run that was not timed.
-    fn mean(self, run: &Run) -> Option<Measured> {
+    pub fn mean(self, run: &Run) -> Option<Measured> {
         let [all, shading] = [metric::FRAME, metric::SHADE].map(|metric| run.measured(metric));
         match self {
             Self::Assignment => Some(Measured::combine([&all?, &shading?], |[all, shading]| all - shading)),
@@ -119,7 +125,7 @@ fn methods(set: &ResultSet, setting: &Setting) -> Vec<Method> {
 }
 
 /// A number and the ends of its interval, as three cells of a table.
-fn cells(number: &Measured) -> [Option<f64>; 3] {
+pub fn cells(number: &Measured) -> [Option<f64>; 3] {
     let [low, high] = Interval::ends(number.interval());
     [Some(number.value), low, high]
 }

@@ -25,25 +25,30 @@ pub fn figures(set: &ResultSet) -> Vec<Figure> {
     figure::figures(&WANTED, drawn.collect())
 }
 
-fn chart(set: &ResultSet, setting: &Setting) -> Option<Chart> {
+/// A panel a lighting, a bar a method; `None` where nothing was timed.
+pub fn chart(set: &ResultSet, setting: &Setting) -> Option<Chart> {
     let lightings = lightings(set.of(setting).filter(|run| Part::Assignment.mean(run).is_some()));
     let legend = [Part::Assignment, Part::Shading].map(Part::key).to_vec();
     by_lighting(&lightings, ("ms", legend), |lighting| bars(set, setting, lighting))
 }
 
 fn bars(set: &ResultSet, setting: &Setting, lighting: &LightingName) -> Vec<Bar> {
-    let bar = |run: &Run| {
-        let [assignment, shading, all] = Part::EVERY.map(|part| part.mean(run));
-        let (all, interval) = (all?, run.measured(metric::FRAME)?.interval());
-        Some(Bar {
-            label: method_name(run.method, setting.is_stereo()),
-            told: with_interval(all.value, interval, [0, 3]),
-            parts: vec![(Part::Assignment.key(), assignment?.value), (Part::Shading.key(), shading?.value)],
-            interval,
-        })
-    };
     let run = |method| set.of(setting).find(|run| run.method == method && run.lighting == *lighting);
-    methods(set, setting).into_iter().filter_map(|method| bar(run(method)?)).collect()
+    let label = |method| method_name(method, setting.is_stereo());
+    methods(set, setting).into_iter().filter_map(|method| bar(run(method)?, label(method))).collect()
+}
+
+/// Assignment and shading of a run, one upon the other; `None` where it was not timed.
+pub fn bar(run: &Run, label: String) -> Option<Bar> {
+    let [assignment, shading, all] = Part::EVERY.map(|part| part.mean(run));
+    let all = all?;
+    let interval = all.interval();
+    Some(Bar {
+        label,
+        told: with_interval(all.value, interval, [0, 3]),
+        parts: vec![(Part::Assignment.key(), assignment?.value), (Part::Shading.key(), shading?.value)],
+        interval,
+    })
 }
 
 /// A row a method, lighting and setting.

@@ -4,8 +4,9 @@
 //! made holds and all it needs were made; it does not hold where one fails. Criteria are fixed before any data.
 //! How far a comparison is from failing is its margin. Times have noise, so the margin has an interval ([`repeats`]), and
 //! where that straddles 0 the comparison is undecided. Counts repeat exactly.
-//! Runs by different ways of assignment are never compared with each other: the verdict is of the thesis's own way, or
-//! else the first there is, and claims that others bear on have theirs beside it.
+//! Runs by different ways of assignment are never compared with each other, but where a paper compares them ([`by_way`] or
+//! its own rule): the verdict is of the paper's own way, or else the first there is, and claims that others bear on have
+//! theirs beside it.
 
 mod repeats;
 
@@ -134,8 +135,18 @@ pub struct Findings {
 impl Findings {
     /// Takes a comparison that `run` was part of.
     pub fn compare(&mut self, run: &Run, comparison: String, numbers: Vec<Number>, outcome: Outcome) {
+        self.compare_in(run.setting.to_string(), comparison, numbers, outcome);
+    }
+
+    /// Takes a comparison in a setting, or over several, by its name.
+    pub fn compare_in(
+        &mut self,
+        setting: String,
+        comparison: String,
+        numbers: Vec<Number>,
+        outcome: Outcome,
+    ) {
         let Outcome { holds, margin } = outcome;
-        let setting = run.setting.to_string();
         let (interval, decided) = (None, true);
         self.evidence.push(Evidence { setting, comparison, numbers, holds, margin, interval, decided });
     }
@@ -181,10 +192,16 @@ pub struct Stated {
     pub find: fn(&ResultSet) -> Findings,
 }
 
-/// Checks claims, in their order.
-pub fn check<'a>(stated: impl IntoIterator<Item = &'a Stated>, set: &ResultSet) -> Vec<Claim> {
-    let mut sets: Vec<(Way, ResultSet)> =
-        set.ways().into_iter().map(|way| (way.clone(), set.by_way(way))).collect();
+/// The runs of each way, the thesis's own way first.
+pub fn by_way(set: &ResultSet) -> Vec<(Way, ResultSet)> {
+    set.ways().into_iter().map(|way| (way.clone(), set.by_way(way))).collect()
+}
+
+/// Checks claims, in their order, on each set apart; the first decides.
+pub fn check<'a>(
+    stated: impl IntoIterator<Item = &'a Stated>,
+    mut sets: Vec<(Way, ResultSet)>,
+) -> Vec<Claim> {
     if sets.is_empty() {
         sets.push(Default::default());
     }

@@ -4,8 +4,10 @@
 mod claims;
 mod figures;
 
+use super::claim;
 use super::paper::{Paper, Section};
 use super::results::Setting;
+use crate::methods::Method;
 
 /// The thesis.
 pub const PAPER: Paper = Paper {
@@ -17,8 +19,16 @@ pub const PAPER: Paper = Paper {
         Section { heading: "Appendix C: Sun Temple", anchor: "appendix-c", ids: &["C"] },
     ],
     figures: figures::all,
+    tables: |_| vec![],
     claims: &claims::CLAIMS,
+    judged: claim::by_way,
+    measures,
 };
+
+/// Grids that every view has of its own or that enclose all, and what else no other paper's page is about.
+fn measures(method: Method) -> bool {
+    !super::enhuber::measures(method)
+}
 
 /// Whether the scene is that of the thesis's appendix C; else it is that of chapter 6.
 fn is_sun_temple(setting: &Setting) -> bool {

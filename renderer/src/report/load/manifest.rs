@@ -65,6 +65,19 @@ pub fn lighting(run: &Manifest) -> LightingName {
     LightingName { count: None, label: file.unwrap_or_else(|| "the scene's lights".into()), sha256: None }
 }
 
+/// Size of the box around the lights that were made, metres.
+pub fn light_box(run: &Manifest) -> Option<[f64; 3]> {
+    let boxes = &run.generated.as_ref()?.boxes;
+    let corners =
+        boxes.iter().map(|one| one.turn.is_none().then_some(one.corners)).collect::<Option<Vec<_>>>()?;
+    let around = |axis: usize| {
+        let low = corners.iter().map(|one| one.min[axis]).fold(f32::INFINITY, f32::min);
+        let high = corners.iter().map(|one| one.max[axis]).fold(f32::NEG_INFINITY, f32::max);
+        f64::from(high - low)
+    };
+    (!corners.is_empty()).then(|| [0, 1, 2].map(around))
+}
+
 /// What tells its lights from those of others.
 pub fn lights_key(run: &Manifest) -> String {
     let LightingName { label, sha256, .. } = lighting(run);

@@ -10,7 +10,7 @@ use super::chart::palette;
 use super::claim::{ByWay, Claim, Evidence, Verdict};
 use super::figure::Figure;
 use super::format::readable;
-use super::paper::{PAPERS, Section};
+use super::paper::{Section, papers};
 use super::results::ResultSet;
 use super::tables::Table;
 use crate::output::with_interval;
@@ -75,6 +75,8 @@ pub struct Content<'a> {
     pub claims: &'a [Claim],
     /// Tables over several ways of assignment.
     pub tables: &'a [Table],
+    /// The papers' own tables.
+    pub paper_tables: &'a [Table],
 }
 
 /// A section of tables and drawings.
@@ -88,11 +90,11 @@ pub struct Analysis {
 
 /// The whole page.
 pub fn html(set: &ResultSet, content: &Content<'_>) -> String {
-    let Content { figures, analysis, galleries, claims, tables } = *content;
+    let Content { figures, analysis, galleries, claims, tables, paper_tables } = *content;
     let mut body = String::new();
     header(&mut body, set);
-    navigation(&mut body, content);
-    claims_section(&mut body, claims);
+    navigation(&mut body, set, content);
+    claims_section(&mut body, set, claims);
     if !tables.is_empty() {
         tables::section(&mut body, tables);
     }
@@ -102,10 +104,13 @@ pub fn html(set: &ResultSet, content: &Content<'_>) -> String {
         tables.iter().for_each(|table| tables::element(&mut body, table));
         body.push_str("</section>\n");
     }
-    for Section { heading, anchor, ids } in sections() {
+    for Section { heading, anchor, ids } in sections(set) {
         section(&mut body, anchor, heading);
-        let belongs = |figure: &&Figure| ids.iter().any(|start| figure.id.starts_with(start));
-        figures.iter().filter(belongs).for_each(|figure| figure_element(&mut body, figure, true));
+        let belongs = |id: &str| ids.iter().any(|start| id.starts_with(start));
+        let figures = figures.iter().filter(|figure| belongs(&figure.id));
+        figures.for_each(|figure| figure_element(&mut body, figure, true));
+        let tables = paper_tables.iter().filter(|table| belongs(table.id));
+        tables.for_each(|table| tables::element(&mut body, table));
         body.push_str("</section>\n");
     }
     if !galleries.is_empty() {
@@ -120,9 +125,9 @@ pub fn html(set: &ResultSet, content: &Content<'_>) -> String {
     document(&body, &numbers(figures.iter().chain(analysed)))
 }
 
-/// The sections of all papers.
-fn sections() -> impl Iterator<Item = &'static Section> {
-    PAPERS.iter().flat_map(|paper| paper.sections)
+/// The sections of the papers whose methods were run.
+fn sections(set: &ResultSet) -> impl Iterator<Item = &'static Section> {
+    papers(set).into_iter().flat_map(|paper| paper.sections)
 }
 
 /// The page around a body, with its styles and scripts; `data` is JSON of the numbers of figures.
@@ -214,7 +219,7 @@ fn minute(moment: &str) -> String {
     moment.chars().take(16).map(|c| if c == 'T' { ' ' } else { c }).collect()
 }
 
-fn navigation(body: &mut String, content: &Content<'_>) {
+fn navigation(body: &mut String, set: &ResultSet, content: &Content<'_>) {
     body.push_str("<nav>\n<a href=\"#claims\">Claims</a>\n");
     if !content.tables.is_empty() {
         body.push_str("<a href=\"#ways\">Ways of assignment</a>\n");
@@ -222,7 +227,7 @@ fn navigation(body: &mut String, content: &Content<'_>) {
     if content.analysis.is_some() {
         body.push_str("<a href=\"#analysis\">Analysis</a>\n");
     }
-    for Section { heading, anchor, .. } in sections() {
+    for Section { heading, anchor, .. } in sections(set) {
         let short = heading.split(':').next().unwrap_or(heading);
         let _ = writeln!(body, "<a href=\"#{anchor}\">{short}</a>");
     }
@@ -250,9 +255,9 @@ fn figure_element(body: &mut String, figure: &Figure, numbered: bool) {
     let _ = writeln!(body, "<figcaption>{}</figcaption>\n</figure>", text(caption));
 }
 
-fn claims_section(body: &mut String, claims: &[Claim]) {
-    let papers: Vec<&str> = PAPERS.iter().map(|paper| paper.name).collect();
-    section(body, "claims", &format!("Claims of {}", papers.join(" and ")));
+fn claims_section(body: &mut String, set: &ResultSet, claims: &[Claim]) {
+    let names: Vec<&str> = papers(set).into_iter().map(|paper| paper.name).collect();
+    section(body, "claims", &format!("Claims of {}", names.join(" and ")));
     body.push_str("<div class=\"claims\">\n");
     for claim in claims {
         let (class, sign) = sign(claim.verdict);
