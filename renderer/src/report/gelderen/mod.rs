@@ -27,7 +27,7 @@ pub const PAPER: Paper = Paper {
 
 /// Grids that every view has of its own or that enclose all, and what else no other paper's page is about.
 fn measures(method: Method) -> bool {
-    !super::enhuber::measures(method)
+    !super::enhuber::measures(method) && !super::ortiz::measures(method)
 }
 
 /// Whether the scene is that of the thesis's appendix C; else it is that of chapter 6.

@@ -1,12 +1,12 @@
 //! Enclosing clustering of views that look apart (4.7).
 
-use super::computed::picture;
 use crate::geometry::views::{Mirror, Pose, View};
 use crate::geometry::{ClusterSpace, DisplacedVolume, Frustum, Grid};
 use crate::methods::grid::plan;
 use crate::methods::{Sharing, Space};
 use crate::recording::{EyeRow, Hmd};
 use crate::report::chart::{Chart, Key, Look};
+use crate::report::computed::picture;
 use crate::report::figure::Figure;
 use crate::{Error, Result};
 use glam::{DVec2, DVec3};

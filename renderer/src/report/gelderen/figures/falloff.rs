@@ -1,6 +1,5 @@
 //! Pictures of a floor under lights that fade in different ways (A.2, A.3, A.4).
 
-use super::computed::picture;
 use crate::Result;
 use crate::cpu::{LightLists, Surface, assign, attenuation, reflected};
 use crate::geometry::views::{Pose, View};
@@ -10,6 +9,7 @@ use crate::methods::grid::plan;
 use crate::methods::{Sharing, Space};
 use crate::output::{cubehelix, tone_map};
 use crate::report::chart::{Chart, Plot};
+use crate::report::computed::picture;
 use crate::report::figure::Figure;
 use glam::{DQuat, DVec2, DVec3, Vec3};
 

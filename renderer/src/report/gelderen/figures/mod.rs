@@ -3,7 +3,6 @@
 mod attenuation;
 mod birdseye;
 mod breakdown;
-mod computed;
 mod distribution;
 mod enclosing;
 mod falloff;
