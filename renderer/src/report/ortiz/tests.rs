@@ -128,9 +128,10 @@ fn slices_are_drawn_a_row_a_law_and_told_in_tables() {
         .map(|law| by(exact(NAME, 90.0), SphereTest::Box, Clusters::Visible, law))
         .to_vec();
     for run in &mut runs {
-        let (lights, clusters, birdseye) = (None, None, None);
+        let (lights, heat, clusters, birdseye) = (None, None, None, None);
         let slices = Some(path.clone());
-        run.pictures = vec![Picture { frame: 300, image: path.clone(), lights, clusters, slices, birdseye }];
+        let image = path.clone();
+        run.pictures = vec![Picture { frame: 300, image, lights, heat, clusters, slices, birdseye }];
     }
     let set = set(runs);
     let figures = figures::all(&set).unwrap();
