@@ -130,7 +130,8 @@ fn slices_are_drawn_a_row_a_law_and_told_in_tables() {
     for run in &mut runs {
         let (lights, clusters, birdseye) = (None, None, None);
         let slices = Some(path.clone());
-        run.pictures = vec![Picture { frame: 300, image: path.clone(), lights, clusters, slices, birdseye }];
+        run.pictures =
+            vec![Picture { frame: 300, image: path.clone(), lights, heat: None, clusters, slices, birdseye }];
     }
     let set = set(runs);
     let figures = figures::all(&set).unwrap();
