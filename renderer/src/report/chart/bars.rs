@@ -43,7 +43,7 @@ fn draw_bar(svg: &mut Svg, bar: &Bar, x: Scale, top: f64) {
         [x.range[0] + 6.0, top + 11.0],
         Anchor::Start,
         "label",
-        &format!("{}  {}", bar.label, bar.told),
+        &format!("{}: {}", bar.label, bar.told),
     );
     let (top, mut from) = (top + 15.0, 0.0);
     for (key, value) in &bar.parts {

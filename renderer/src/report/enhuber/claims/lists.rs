@@ -1,10 +1,11 @@
 //! E11 and E13: lists that do not depend on the view, and how many there are.
 
 use super::compared::{Place, deviation, in_every_scene, title};
+use crate::measure::Purpose;
 use crate::methods::{KINDS, Method};
-use crate::report::claim::{Findings, Outcome, milliseconds, number};
+use crate::report::claim::{Findings, Number, Outcome, milliseconds, number};
 use crate::report::enhuber::evaluation::{lights, name};
-use crate::report::results::{ResultSet, Run, Setting, metric};
+use crate::report::results::{FrameGroups, ResultSet, Run, Setting, metric};
 
 pub(super) fn whatever_the_view(set: &ResultSet) -> Findings {
     in_every_scene(set, |place, findings| {
@@ -36,17 +37,17 @@ fn same_lists(place: Place<'_>, run: &Run, findings: &mut Findings) {
         .iter()
         .fold((f64::INFINITY, 0.0_f64), |(least, most), value| (least.min(*value), most.max(*value)));
     let described = |what: &str| format!("{what}, {}, {}", name(run.method), run.lighting.label);
-    let numbers = vec![number("least", least), number("most", most)];
+    let times = deviation(run).map(|ms| milliseconds("standard deviation of the frame time", ms));
+    let numbers = [number("least", least), number("most", most)].into_iter().chain(times);
     let same = Outcome { holds: least == most, margin: least - most };
-    findings.compare_in(place.name(), described("light indices of a frame"), numbers, same);
-    if let Some(deviation) = deviation(run) {
-        let numbers = vec![milliseconds("standard deviation", deviation)];
-        findings.compare_in(
-            place.name(),
-            described("frame times differ"),
-            numbers,
-            Outcome::above(deviation, 0.0),
-        );
+    findings.compare_in(place.name(), described("light indices of a frame"), numbers.collect(), same);
+    if let [first, others @ ..] = &run.groups[..] {
+        let alike = |groups: &&FrameGroups| groups.clusterings == first.clusterings;
+        let differing = others.iter().filter(|groups| !alike(groups)).count() as f64;
+        let numbers =
+            vec![number("frames", run.groups.len() as f64), number("that differ from the first", differing)];
+        let same = Outcome { holds: differing == 0.0, margin: -differing };
+        findings.compare_in(place.name(), described("groups by lights"), numbers, same);
     }
 }
 
@@ -76,10 +77,22 @@ pub(super) fn sparse(set: &ResultSet) -> Findings {
         let [sparse_lists, dense_lists] = [most(sparse), most(dense)];
         let numbers = [(sparse, sparse_lists), (dense, dense_lists)]
             .map(|(run, lists)| number(name(run.method), lists));
-        let told = numbers.into_iter().chain([number("ratio", sparse_lists / dense_lists)]).collect();
+        let here = [sparse, dense].into_iter().filter_map(|run| {
+            let kib = list_memory(run)? / 1024.0;
+            Some(Number { name: format!("{}, lists by offsets", name(run.method)), value: kib, unit: "KiB" })
+        });
+        let ratio = number("ratio", sparse_lists / dense_lists);
+        let told = numbers.into_iter().chain([ratio]).chain(here).collect();
         let outcome = Outcome::within(sparse_lists / dense_lists, [0.0, 0.5]);
         findings.compare_in(place.name(), format!("most lists of a frame, {}", lights(many)), told, outcome);
     })
+}
+
+/// What the lists of the frame that needs most take on the device, bytes; `None` of a run that does not tell.
+fn list_memory(run: &Run) -> Option<f64> {
+    let rows = run.memory.iter().filter(|row| row.purpose == Purpose::Lists.name());
+    let bytes: u64 = rows.map(|row| row.most).sum();
+    (bytes > 0).then_some(bytes as f64)
 }
 
 /// The method of another kind with the same sizes.

@@ -56,7 +56,7 @@ fn each_fails_where_its_numbers_say_so() {
     let swinging = |swing: f64| move |costs: Costs| Costs { swing, ..costs };
     let assignment: fn(&mut Costs) -> &mut [f64; 2] = |costs| &mut costs.assignment;
     let shading: fn(&mut Costs) -> &mut [f64; 2] = |costs| &mut costs.shading;
-    let fails: [(&str, Vec<Run>); 12] = [
+    let fails: [(&str, Vec<Run>); 14] = [
         ("E1", but("dc-e", |costs| slower(costs, 20.0))),
         ("E3", but("sc-i", steeper(shading, 1.1))),
         ("E3", but("t-e", |costs| slower(costs, 2.5))),
@@ -67,6 +67,8 @@ fn each_fails_where_its_numbers_say_so() {
         ("E7", but("t-i", steeper(shading, 91.0))),
         ("E8", but("g", |costs| slower(costs, 1.0))),
         ("E9", but("t-e", swinging(0.6))),
+        ("E10", but("sc-e", |costs| Costs { growth: 15.25, ..costs })),
+        ("E10", but("t-e", |costs| Costs { growth: -8.0, ..costs })),
         ("E12", but("dc-i", steeper(assignment, 2.1))),
         ("E13", but("sc-e", |costs| Costs { lists: 3201.0, ..costs })),
     ];
@@ -174,6 +176,10 @@ fn lists_that_follow_the_view_or_lights_that_move_do_not_pass() {
     let mut indices: Vec<f64> = models.frames.values(metric::INDICES).collect();
     indices[2] += 1.0;
     models.frames.replace(metric::INDICES, indices);
+    assert_eq!(verdict("E11", runs), Verdict::DoesNotHold);
+    let mut runs = everything(costs);
+    let cells = runs.iter_mut().find(|run| run.method.to_string() == "g-20").unwrap();
+    cells.groups[1].clusterings[0][0].1 -= 1;
     assert_eq!(verdict("E11", runs), Verdict::DoesNotHold);
     let mut moving = everything(costs);
     moving.iter_mut().for_each(|run| run.setting.options.push("light motion bounce".into()));

@@ -1,6 +1,7 @@
 //! The figures of chapter 4, each from the evaluations that have data for it.
 
 mod counts;
+mod discontinuity;
 mod intersections;
 mod over_time;
 mod radii;
@@ -24,16 +25,14 @@ pub fn all(set: &ResultSet) -> Result<Vec<Figure>> {
         });
         figures(wanted, drawn.collect())
     };
-    let by_scene = |wanted: &Wanted<'_>, draw: &dyn Fn(&Evaluation<'_>, &Scene<'_>) -> Option<Chart>| {
-        let scenes = evaluations.iter().flat_map(|one| one.scenes.iter().map(move |scene| (one, scene)));
-        let drawn = scenes.filter_map(|(evaluation, scene)| {
-            Some(Drawn {
-                setting: &scene.setting,
-                chart: draw(evaluation, scene)?,
-                remark: evaluation.tests(),
-            })
-        });
-        figures(wanted, drawn.collect())
+    let by_scene = |wanted: &Wanted<'_>, draw: &OfScene<'_>| -> Result<Vec<Figure>> {
+        let mut drawn = vec![];
+        for (evaluation, scene) in each_scene(&evaluations) {
+            if let Some(chart) = draw(evaluation, scene)? {
+                drawn.push(Drawn { setting: &scene.setting, chart, remark: evaluation.tests() });
+            }
+        }
+        Ok(figures(wanted, drawn))
     };
     let mut all = vec![radii::figure()?];
     all.extend(together(&TILES, &|evaluation| sizes::bars(evaluation, &["t-i", "t-e"])));
@@ -41,13 +40,34 @@ pub fn all(set: &ResultSet) -> Result<Vec<Figure>> {
     all.extend(together(&SPARSE, &|evaluation| sizes::lines(evaluation, &["sc-i", "sc-e"])));
     all.extend(together(&WORLD, &|evaluation| sizes::bars(evaluation, &["g"])));
     for (wanted, kind) in [(TESTS_OF_TILES, "t-e"), (TESTS_OF_CLUSTERS, "sc-e")] {
-        all.extend(together(&wanted, &|evaluation| intersections::chart(evaluation, kind)));
+        all.extend(figures(&wanted, by_every_test(&evaluations, kind)));
     }
     all.extend(together(&FRAMES, &over_time::chart));
-    all.extend(by_scene(&COUNTS, &|evaluation, scene| counts::bars(set, evaluation, scene)));
-    all.extend(by_scene(&LINES, &|evaluation, scene| counts::lines(set, evaluation, scene)));
-    all.extend(by_scene(&SLOPES, &|evaluation, scene| counts::slopes(set, evaluation, scene)));
+    all.extend(by_scene(&VIEWS, &discontinuity::views)?);
+    for (wanted, kinds) in [(GROUPS_OF_VIEWS, ["t-e", "sc-e"]), (GROUPS_OF_THE_WORLD, ["g", "m"])] {
+        all.extend(by_scene(&wanted, &|evaluation, scene| discontinuity::lights(evaluation, scene, kinds))?);
+    }
+    all.extend(by_scene(&COUNTS, &|evaluation, scene| Ok(counts::bars(set, evaluation, scene)))?);
+    all.extend(by_scene(&LINES, &|evaluation, scene| Ok(counts::lines(set, evaluation, scene)))?);
+    all.extend(by_scene(&SLOPES, &|evaluation, scene| Ok(counts::slopes(set, evaluation, scene)))?);
     Ok(all)
+}
+
+fn by_every_test<'a>(evaluations: &'a [Evaluation<'_>], kind: &str) -> Vec<Drawn<'a>> {
+    let drawn = evaluations.iter().filter_map(|evaluation| {
+        let (setting, chart) = (&evaluation.setting, intersections::chart(evaluation, kind)?);
+        Some(Drawn { setting, chart, remark: String::new() })
+    });
+    drawn.collect()
+}
+
+/// Draws a scene of an evaluation, where there are data for it.
+type OfScene<'a> = dyn Fn(&Evaluation<'_>, &Scene<'_>) -> Result<Option<Chart>> + 'a;
+
+fn each_scene<'a, 'b>(
+    evaluations: &'b [Evaluation<'a>],
+) -> impl Iterator<Item = (&'b Evaluation<'a>, &'b Scene<'a>)> {
+    evaluations.iter().flat_map(|evaluation| evaluation.scenes.iter().map(move |scene| (evaluation, scene)))
 }
 
 const TILES: Wanted<'static> = Wanted {
@@ -103,6 +123,30 @@ const FRAMES: Wanted<'static> = Wanted {
     caption: "GPU time of each frame (ms) under 10 000 lights or, where there are no such runs, the most. M has a scale of its own. \
               Mean, standard deviation and their ratio are told by the table of variability below.",
     missing: "needs temporal runs of the methods",
+};
+
+const VIEWS: Wanted<'static> = Wanted {
+    id: "E4.9",
+    title: "Views of little and of much depth discontinuity",
+    caption: "Of the frames that were rendered to files, tone-mapped, those of least and most depth discontinuity, under 10 000 lights or, \
+              where there are no such runs, the most.",
+    missing: "needs rendered frames of T-E, SC-E, G or M: replay with --exr discontinuity",
+};
+
+const GROUPS_OF_VIEWS: Wanted<'static> = Wanted {
+    id: "E4.10",
+    title: "Lights of tiles and of sparse clusters",
+    caption: "Left: the lights of each pixel's group, blended with the frame: blue for none to red for 150, green for more. Right: how \
+              many groups hold so many lights, in bins of 25; groups without lights stand apart (grey) where all groups have lists. The \
+              frames are those of the views above.",
+    missing: "needs rendered frames of T-E or SC-E: replay with --exr discontinuity",
+};
+
+const GROUPS_OF_THE_WORLD: Wanted<'static> = Wanted {
+    id: "E4.11",
+    title: "Lights of cells of the world and of models",
+    missing: "needs rendered frames of G or M: replay with --exr discontinuity",
+    ..GROUPS_OF_VIEWS
 };
 
 const COUNTS: Wanted<'static> = Wanted {

@@ -1,25 +1,37 @@
 //! What is drawn of results, and what is said where there are none.
 
 use super::all;
+use crate::output::write_png;
 use crate::report::chart::{Chart, Plot};
 use crate::report::enhuber::testing::{costs, elsewhere, everything};
 use crate::report::figure::Figure;
-use crate::report::results::{Run, metric};
+use crate::report::results::{Picture, Run, metric};
 use crate::report::testing::{FRAMES, assert_well_formed, set, timed};
+use image::RgbImage;
+use std::path::Path;
 
-/// Everything in two scenes, timed three times.
-fn results() -> Vec<Run> {
-    let timed = |run: Run| {
+/// Everything in two scenes, timed three times, with one picture for all frames.
+fn results(directory: &Path) -> Vec<Run> {
+    let image = directory.join("frame.png");
+    write_png(&image, &RgbImage::from_pixel(32, 18, image::Rgb([1, 2, 3]))).unwrap();
+    let shown = |picture: Picture| Picture { image: image.clone(), heat: Some(image.clone()), ..picture };
+    let made = |mut run: Run| {
+        run.pictures = run.pictures.into_iter().map(shown).collect();
         let factors = [1.0, 1.01, 1.02];
         timed(timed(run, metric::FRAME, factors), metric::SHADE, factors)
     };
-    let street: Vec<Run> = everything(costs).into_iter().map(timed).collect();
+    let street: Vec<Run> = everything(costs).into_iter().map(made).collect();
     let hall = street.clone().into_iter().map(elsewhere);
     hall.chain(street.clone()).collect()
 }
 
+fn all_figures() -> Vec<Figure> {
+    let directory = tempfile::tempdir().unwrap();
+    all(&set(results(directory.path()))).unwrap()
+}
+
 fn figure(id: &str) -> Figure {
-    all(&set(results())).unwrap().into_iter().find(|figure| figure.id == id).unwrap()
+    all_figures().into_iter().find(|figure| figure.id == id).unwrap()
 }
 
 fn chart(id: &str) -> Chart {
@@ -37,7 +49,7 @@ fn close(a: f64, b: f64) -> bool {
 
 #[test]
 fn every_figure_is_drawn_from_an_evaluation() {
-    let figures = all(&set(results())).unwrap();
+    let figures = all_figures();
     let ids: Vec<&str> = figures.iter().map(|figure| figure.id.as_str()).collect();
     let wanted = [
         "E4.1",
@@ -48,6 +60,12 @@ fn every_figure_is_drawn_from_an_evaluation() {
         "E4.6",
         "E4.7",
         "E4.8",
+        "E4.9",
+        "E4.9-2",
+        "E4.10",
+        "E4.10-2",
+        "E4.11",
+        "E4.11-2",
         "E4.12",
         "E4.12-2",
         "E4.13",
@@ -80,7 +98,7 @@ fn without_results_all_but_what_is_computed_say_what_they_need() {
     let figures = all(&set(vec![])).unwrap();
     assert_eq!(figures.iter().filter(|figure| figure.chart.is_some()).count(), 1, "the density");
     for figure in figures.iter().skip(1) {
-        assert!(figure.caption.starts_with("Not enough data: needs temporal runs of"), "{}", figure.caption);
+        assert!(figure.caption.starts_with("Not enough data: needs "), "{}", figure.caption);
     }
 }
 
@@ -153,4 +171,28 @@ fn few_and_many_lights_are_panels_and_lines_of_the_seven() {
     let slopes = bars(fit.panels.get(1));
     assert!(slopes[0].0 == "T-I 28" && close(slopes[0].1, 4.0), "{slopes:?}");
     assert!(figure("E4.12").caption.contains("any number of views"));
+}
+
+#[test]
+fn views_differ_in_discontinuity_and_so_do_the_lights_of_groups() {
+    assert_eq!(chart("E4.9").columns, ["frame 300 (least)", "frame 580 (most)"]);
+    let sparse = chart("E4.10");
+    let rows = [
+        "T-E 28, frame 300 (least)",
+        "T-E 28, frame 580 (most)",
+        "SC-E 48 40, frame 300 (least)",
+        "SC-E 48 40, frame 580 (most)",
+    ];
+    assert_eq!(sparse.rows, rows);
+    let columns = |chart: &Chart, row: usize| {
+        let Some(Plot::Columns(columns)) = &chart.panels[2 * row + 1] else { panic!("columns") };
+        columns.iter().map(|column| (column.label.clone(), column.count)).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        [0, 1].map(|row| columns(&sparse, row)),
+        [vec![("0-25".into(), 4)], vec![("26-50".into(), 4)]]
+    );
+    let world = chart("E4.11");
+    assert_eq!((&world.rows[0][..], &world.rows[3][..]), ("G 20, frame 300 (least)", "M, frame 580 (most)"));
+    assert_eq!(columns(&world, 0), columns(&world, 1));
 }

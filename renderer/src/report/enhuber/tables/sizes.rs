@@ -29,10 +29,10 @@ fn rows(evaluation: &Evaluation<'_>) -> Vec<Row> {
     EIGHT.iter().filter_map(|kind| rows_of(evaluation, kind)).flatten().collect()
 }
 
-/// The rows of a kind; `None` where no scene has a time of it.
+/// The rows of a kind; `None` where it has no sizes or no scene has a time of it.
 fn rows_of(evaluation: &Evaluation<'_>, kind: &str) -> Option<Vec<Row>> {
     let times = times(evaluation, kind);
-    let selected = select(&times)?;
+    let selected = select(&times).filter(|method| !method.sizes().is_empty())?;
     let row = |(scene, sizes): (&Scene<'_>, &Vec<(Method, Measured)>)| {
         let (fastest, least) = fastest(sizes)?;
         let chosen = sizes.iter().find(|(method, _)| *method == selected).map(|(_, ms)| ms);

@@ -95,6 +95,9 @@ fn the_size_that_wins_most_scenes_is_selected_and_ties_go_to_the_least_loss() {
     );
     let both = table("enhuber-sizes", scenes([3.0, 0.0], [2.0, 0.0]));
     assert_eq!(row(&both, &["G", "hall (hall)"]).labels[3], "G 20");
+    let all = table("enhuber-sizes", everything(costs));
+    let kinds: Vec<&str> = all.rows.iter().map(|row| row.labels[0].as_str()).collect();
+    assert_eq!(kinds, ["T-I", "T-E", "DC-I", "DC-E", "SC-I", "SC-E", "G"], "models have no size");
 }
 
 #[test]
