@@ -68,7 +68,7 @@ fn frames_allocate_nothing() {
         frames: FrameRange { first: 290, end: Some(310), step: 1 },
         ..Config::default()
     };
-    for name in ["all-lights", "indi-persp-64", "encl-ortho-4", "tiled-16", "g-20", "m"] {
+    for name in ["all-lights", "indi-persp-64", "encl-ortho-4", "tiled-16", "ortiz-16-9-24", "g-20", "m"] {
         for (assigner, clusters, culling) in [
             (Assigner::Brute, Clusters::Visible, Culling::Gpu),
             (Assigner::Hierarchy, Clusters::Visible, Culling::Cpu),

@@ -8,7 +8,7 @@ use manylight_tests::{METHODS, methods, run};
 fn silent(recording: &str, msaa: u32, marking: Marking) {
     let runs = run(Config {
         recording: recording.to_owned(),
-        methods: methods(&METHODS),
+        methods: methods(&[&METHODS[..], &["ortiz-16-9-24"]].concat()),
         resolution: [48, 32],
         msaa,
         marking,

@@ -265,7 +265,7 @@ settings! {
     }
     /// What decides whether a light meets a cluster: `hs` (half spaces), `sat-` with letters (no separating axis among
     /// e: edges, n: to the nearest vertex, p: normals, v: to all vertices), `hs+sat-n` and the like, `exact`, `box`
-    /// (orthographic clusters only), or `auto`: hs in perspective grids, box in orthographic ones, exact for models, which take
+    /// (orthographic clusters and ortiz), or `auto`: hs in perspective grids, box where it serves, exact for models, which take
     /// no other. Of several, with commas between, each is a run of every method.
     test: Vec<Test> = vec![Test::Auto], Run {
         arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::choice::<SphereTest>)
