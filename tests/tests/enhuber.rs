@@ -56,8 +56,8 @@ fn every_figure_table_and_claim_has_data() {
         let text = fs::read_to_string(report.join(&table)).unwrap_or_else(|error| panic!("{table}: {error}"));
         assert!(text.lines().count() > 1, "{table} has rows");
     }
-    let scenes = csv::Reader::from_path(report.join("enhuber-scenes.csv")).unwrap().deserialize().next();
-    let scene: BTreeMap<String, String> = scene.unwrap().unwrap();
+    let mut scenes = csv::Reader::from_path(report.join("enhuber-scenes.csv")).unwrap();
+    let scene: BTreeMap<String, String> = scenes.deserialize().next().unwrap().unwrap();
     assert_eq!((scene["scene_triangles"].as_str(), scene["frames"].as_str()), ("47262", "670"));
     for axis in ["x", "y", "z"] {
         let [scene, lights] =

@@ -5,12 +5,12 @@ use manylight::assign::{Clusters, Marking};
 use manylight::config::{Assign, Config, ExrFrames, FrameRange};
 use manylight::lights::Lighting;
 use manylight::measure::ClusteringCounts;
-use manylight_tests::{METHODS, Run, assert_equal_the_truth, methods, run};
+use manylight_tests::{Run, assert_equal_the_truth, methods, methods_serving, run};
 
 fn config(recording: &str, msaa: u32, marking: Marking) -> Config {
     Config {
         recording: recording.to_owned(),
-        methods: methods(&METHODS),
+        methods: methods_serving(msaa, marking),
         resolution: [80, 48],
         msaa,
         marking,

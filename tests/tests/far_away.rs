@@ -69,7 +69,7 @@ fn runs(away: [f64; 3], lights: Lights, stereo: bool) -> Vec<Run> {
         lights_file: (lights == Lights::File).then(|| file("lights.csv")),
         scene_lights: lights == Lights::Scene,
         attenuation: Attenuation::Stp,
-        methods: methods(&[&METHODS[..], &["g-6", "m"]].concat()),
+        methods: methods(&[&METHODS[..], &["g-6"]].concat()),
         resolution: [64, 40],
         frames: FrameRange { first: 0, end: Some(1), step: 1 },
         runs: 0.into(),

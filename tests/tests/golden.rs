@@ -5,8 +5,8 @@
 use manylight::config::{Config, ExrFrames, FrameRange};
 use manylight::lights::Lighting;
 use manylight::output::image_preview;
-use manylight::selftest::{GOLDEN_COLUMNS, golden_row};
-use manylight_tests::{METHODS, Run, blessing, data, methods, run};
+use manylight::selftest::{GOLDEN_COLUMNS, GOLDEN_METHODS, golden_row};
+use manylight_tests::{Run, blessing, data, methods, run};
 use std::fs;
 
 /// Compares methods in a scene, by its name in files too, along a recording under the lights; `pictured` is the frame whose
@@ -65,7 +65,7 @@ fn compare_counters(runs: &[Run], file: &str) {
 
 #[test]
 fn street() {
-    golden(&METHODS[..7], ["street", "bistro-vive"], Lighting::with_count(1000), 300);
+    golden(&GOLDEN_METHODS, ["street", "bistro-vive"], Lighting::with_count(1000), 300);
 }
 
 #[test]

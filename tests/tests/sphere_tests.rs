@@ -20,11 +20,18 @@ fn runs(recording: &str, assign: Vec<Assign>, lights: Vec<Lighting>) -> Vec<Run>
         lights,
         assign,
         test: TESTS.map(|name| name.parse().unwrap()).to_vec(),
+        // The boxes of models are asked by the exact test alone.
+        exclude: vec!["method=m,test=hs*|sat*".parse().unwrap()],
         resolution: [48, 32],
         frames: FrameRange { first: 300, end: Some(301), step: 1 },
         runs: 0.into(),
         ..Config::default()
     })
+}
+
+/// How many tests ask for a method's lists; once without lists.
+fn asked(name: &str) -> usize {
+    if matches!(name, "all-lights" | "m") { 1 } else { TESTS.len() }
 }
 
 /// Runs that differ from `of` in their test or way alone, by what they found.
@@ -35,7 +42,7 @@ fn siblings<'a>(runs: &'a [Run], of: &'a Run) -> impl Iterator<Item = &'a Run> {
 
 fn no_needed_light_is_lost(recording: &str) {
     let runs = runs(recording, vec![Assign::Hierarchy], lightings());
-    assert_eq!(runs.len(), 3 * (1 + (METHODS.len() - 1) * TESTS.len()));
+    assert_eq!(runs.len(), 3 * METHODS.iter().map(|name| asked(name)).sum::<usize>());
     for of_lighting in runs.chunk_by(|a, b| a.planned.lights == b.planned.lights) {
         let needed = of_lighting[0].counts[0].counters.needed_computations;
         assert!(needed > 100, "next to nothing is lit");
@@ -67,7 +74,7 @@ fn lists_are_the_same_by_all_ways(recording: &str) {
             compared += 1;
         }
     }
-    assert_eq!(compared, 1 + (METHODS.len() - 1) * TESTS.len() * 9);
+    assert_eq!(compared, 1 + 9 * METHODS[1..].iter().map(|name| asked(name)).sum::<usize>());
 }
 
 #[test]

@@ -3,12 +3,12 @@
 
 use manylight::assign::{Clusters, Marking};
 use manylight::config::{Config, ExrFrames, FrameRange, Scopes};
-use manylight_tests::{METHODS, methods, run};
+use manylight_tests::{methods, methods_serving, run};
 
 fn silent(recording: &str, msaa: u32, marking: Marking) {
     let runs = run(Config {
         recording: recording.to_owned(),
-        methods: methods(&[&METHODS[..], &["ortiz-16-9-24"]].concat()),
+        methods: [methods_serving(msaa, marking), methods(&["ortiz-16-9-24"])].concat(),
         resolution: [48, 32],
         msaa,
         marking,

@@ -25,7 +25,7 @@ mod touching;
 
 pub use context::{Context, Options};
 pub use frames::METHODS;
-pub use golden::{GOLDEN_COLUMNS, golden_row};
+pub use golden::{GOLDEN_COLUMNS, GOLDEN_METHODS, golden_row};
 pub use pictures::{count_fault, difference, picture_fault};
 pub use report::{Outcome, SelfTest, Verdict};
 
