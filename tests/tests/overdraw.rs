@@ -5,6 +5,7 @@ use manylight::assign::{Clusters, Marking};
 use manylight::config::{Config, ExrFrames, FrameRange, Scopes};
 use manylight::culling::Culling;
 use manylight::lights::Lighting;
+use manylight::measure::DeviceCounts;
 use manylight::shading::Shading;
 use manylight_tests::scenes::{Quad, recording, write_quads};
 use manylight_tests::{Run, assert_equal_the_truth, methods, run};
@@ -117,8 +118,8 @@ fn squares(distances: &[(f32, f32)]) -> Vec<Quad> {
     distances.iter().map(square).collect()
 }
 
-/// (Fragments shaded, hidden) of squares by all lights and by clusters that hold something visible, with overdraw.
-fn shaded(distances: &[(f32, f32)]) -> Vec<(u64, u64)> {
+/// What is counted of squares under one light by all lights and by clusters that hold something visible, with overdraw.
+fn counted(distances: &[(f32, f32)]) -> [DeviceCounts; 2] {
     let directory = tempfile::tempdir().unwrap();
     let path = |name: &str| directory.path().join(name);
     write_quads(&path("squares.gltf"), &squares(distances), [0.0; 3], &[([0.5, 0.0, -1.0], 50.0)]);
@@ -138,8 +139,12 @@ fn shaded(distances: &[(f32, f32)]) -> Vec<(u64, u64)> {
         runs: 0.into(),
         ..Config::default()
     });
-    let of = |run: &Run| (run.counts[0].counters.fragments_shaded, run.counts[0].counters.fragments_hidden);
-    runs.iter().map(of).collect()
+    [0, 1].map(|run| runs[run].counts[0].counters)
+}
+
+/// (Fragments shaded, hidden) of squares, by both methods.
+fn shaded(distances: &[(f32, f32)]) -> [(u64, u64); 2] {
+    counted(distances).map(|counts| (counts.fragments_shaded, counts.fragments_hidden))
 }
 
 #[test]
@@ -151,6 +156,18 @@ fn what_is_drawn_behind_is_not_shaded_and_what_is_drawn_over_is_hidden() {
     assert_eq!(shaded(&[(4.0, 1.0), (2.0, 0.25)]), [(far.0 + alone.0, alone.0); 2]);
     // Of surfaces at one depth the last is seen; all of them are found at that depth.
     assert_eq!(shaded(&[(4.0, 1.0), (4.0, 1.0)]), [(2 * far.0, 0); 2]);
+}
+
+/// A square that is hidden altogether lies in clusters that nobody sees: it is shaded by none of the lights on the lists of others.
+#[test]
+fn what_finds_no_group_has_no_lights() {
+    let near = counted(&[(2.0, 1.0)]);
+    let over = counted(&[(4.0, 1.0), (2.0, 1.0)]);
+    let evaluated = |counts: [DeviceCounts; 2]| counts.map(|counts| counts.lighting_computations);
+    let ([all, clustered], shaded) = (evaluated(over), near[0].fragments_shaded + over[0].fragments_hidden);
+    assert!(over[0].fragments_hidden > 100 && over[0].fragments_hidden == over[1].fragments_hidden);
+    assert_eq!((all, evaluated(near)), (shaded, [near[0].fragments_shaded; 2]));
+    assert_eq!((clustered, over[1].fragments_shaded), (near[0].fragments_shaded, shaded));
 }
 
 /// Stages of a run's last frame.

@@ -1,8 +1,8 @@
 //! What light lists are to each other and to what is seen, light by light: every list has what its fragments need, none has
-//! more than half spaces let pass.
+//! more than half spaces let pass, and what holds more cells has more lights.
 
 use glam::DVec3;
-use manylight::assign::Marking;
+use manylight::assign::{Clusters, Marking};
 use manylight::config::{Config, ExrFrames, FrameRange};
 use manylight::inputs::Inputs;
 use manylight::lights::{Lighting, PointLight};
@@ -123,5 +123,34 @@ fn lists_lie_between_what_reaches_a_cluster_and_what_half_spaces_let_pass() {
             }
             assert!(exact.counts[0].light_indices() < half_spaces.counts[0].light_indices());
         }
+    }
+}
+
+/// A tile is the union of its clusters: they share their sides, and their slices leave no gap. So what half spaces or the exact
+/// test find of it they find of one of these, and the other way round. Separating axes of a tile, which its clusters do not have,
+/// may keep out what one of them lets pass.
+#[test]
+fn a_tile_has_the_lights_of_all_its_clusters() {
+    for (scene, test) in [(HALL, "hs"), (STREET, "exact"), (HALL, "exact")] {
+        let clusters = vec![Clusters::All.into()];
+        let test = vec![test.parse().unwrap()];
+        let config = config(scene, &["t-i-8", "dc-i-8-12", "dc-i-8-40"]);
+        let (runs, _) = runs(&Config { test, clusters, exr: ExrFrames::List(vec![]), ..config });
+        let tiles = lists(&runs[0]);
+        for run in &runs[1..] {
+            for (tiles, clusters) in tiles.iter().zip(lists(run)) {
+                let mut united = vec![vec![]; tiles.len()];
+                for (cluster, list) in clusters {
+                    united[cluster as usize % tiles.len()].extend_from_slice(list);
+                }
+                for (tile, mut lights) in united.into_iter().enumerate() {
+                    lights.sort_unstable();
+                    lights.dedup();
+                    assert_eq!(tiles[&(tile as u32)], lights, "{} tile {tile}", run.planned.name);
+                }
+            }
+        }
+        let indices = runs[0].counts[0].light_indices();
+        assert!(indices > 200, "{scene:?}: {indices}");
     }
 }
