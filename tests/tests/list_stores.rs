@@ -8,6 +8,8 @@ use manylight_tests::{Run, assert_equal_the_truth, manylight, methods, run};
 
 /// Every kind of group, with measured bounds among them.
 const NAMES: [&str; 6] = ["indi-persp-16", "encl-ortho-4", "sc-e-12-10", "dc-i-16-12", "g-7", "m"];
+/// Some of them.
+const FEW: [&str; 3] = ["indi-persp-16", "sc-e-12-10", "m"];
 
 fn config(recording: &str, msaa: u32, names: &[&str]) -> Config {
     Config {
@@ -15,7 +17,7 @@ fn config(recording: &str, msaa: u32, names: &[&str]) -> Config {
         methods: methods(names),
         resolution: [80, 48],
         msaa,
-        frames: FrameRange { first: 300, end: Some(581), step: 280 },
+        frames: FrameRange { first: 300, end: Some(301), step: 1 },
         runs: 0.into(),
         exr: ExrFrames::All,
         ..Config::default()
@@ -42,9 +44,9 @@ fn assert_all_same(runs: &[Run], values: usize) {
 }
 
 /// Two entries are too few for most lists: all grow, and nothing else changes.
-fn grow(recording: &str, msaa: u32, assign: Assign) {
+fn grow((recording, msaa): (&str, u32), assign: Assign, names: &[&str]) {
     let stores = [ListStore::Offsets, ListStore::Fixed(2), ListStore::Fixed(1500), ListStore::Capped(1024)];
-    let config = Config { assign: vec![assign], lists: stores.to_vec(), ..config(recording, msaa, &NAMES) };
+    let config = Config { assign: vec![assign], lists: stores.to_vec(), ..config(recording, msaa, names) };
     let runs = run(config);
     assert_all_same(&runs, stores.len());
     for of_method in runs.chunks(stores.len()) {
@@ -64,22 +66,22 @@ fn grow(recording: &str, msaa: u32, assign: Assign) {
 
 #[test]
 fn every_store_in_mono() {
-    grow("bistro", 1, Assign::Brute);
+    grow(("bistro", 1), Assign::Brute, &NAMES);
 }
 
 #[test]
 fn every_store_in_stereo_with_four_samples() {
-    grow("bistro-vive", 4, Assign::Brute);
+    grow(("bistro-vive", 4), Assign::Brute, &NAMES);
 }
 
 #[test]
 fn every_store_by_hierarchy() {
-    grow("bistro-vive", 1, Assign::Hierarchy);
+    grow(("bistro-vive", 1), Assign::Hierarchy, &FEW);
 }
 
 #[test]
 fn every_store_by_scatter() {
-    grow("bistro-vive", 1, Assign::Scatter);
+    grow(("bistro-vive", 1), Assign::Scatter, &FEW);
 }
 
 /// The truth knows no lists.
@@ -105,7 +107,7 @@ fn capped_lists_drop_what_they_say() {
     let stores = [ListStore::Offsets, ListStore::Capped(6)];
     for assign in [Assign::Brute, Assign::Hierarchy, Assign::Scatter] {
         let config =
-            Config { assign: vec![assign], lists: stores.to_vec(), ..config("bistro-vive", 1, &NAMES) };
+            Config { assign: vec![assign], lists: stores.to_vec(), ..config("bistro-vive", 1, &FEW) };
         let runs = run(config.clone());
         for pair in runs.chunks(2) {
             let [offsets, capped] = pair else { panic!("two stores") };
@@ -118,20 +120,18 @@ fn capped_lists_drop_what_they_say() {
                 }
             }
             let told: u64 = capped.counts.iter().map(|frame| frame.counters.lights_dropped).sum();
-            assert!(dropped > 100 && told == dropped, "{}: {told} of {dropped}", capped.planned.name);
+            assert!(dropped > 20 && told == dropped, "{}: {told} of {dropped}", capped.planned.name);
             assert!(offsets.counts.iter().all(|frame| frame.counters.lights_dropped == 0));
             assert!(capped.images != offsets.images, "{}: nothing is missed", capped.planned.name);
         }
         let again = run(Config { lists: vec![stores[1]], ..config });
-        for (one, other) in runs.iter().skip(1).step_by(2).zip(&again) {
-            assert_same(one, other);
-        }
+        runs.iter().skip(1).step_by(2).zip(&again).for_each(|(one, other)| assert_same(one, other));
     }
 }
 
 #[test]
 fn places_of_a_counter_change_nothing() {
-    let names = ["indi-persp-16", "encl-ortho-4", "sc-e-12-10", "indi-displ-16-32"];
+    let names = ["indi-persp-16", "encl-ortho-4", "sc-e-12-10"];
     let ways = [Compaction::Ranks, Compaction::Atomic];
     for (assign, store, msaa, marking) in [
         (Assign::Brute, ListStore::Offsets, 1, Marking::Depth),
@@ -146,10 +146,10 @@ fn places_of_a_counter_change_nothing() {
             marking,
             ..config("bistro-vive", msaa, &names)
         };
-        assert_all_same(&run(config.clone()), 2);
-        let atomic = Config { compaction: vec![Compaction::Atomic], ..config };
-        let twice = [run(atomic.clone()), run(atomic)];
-        twice[0].iter().zip(&twice[1]).for_each(|(one, other)| assert_same(one, other));
+        let runs = run(config.clone());
+        assert_all_same(&runs, 2);
+        let again = run(Config { compaction: vec![Compaction::Atomic], ..config });
+        runs.iter().skip(1).step_by(2).zip(&again).for_each(|(one, other)| assert_same(one, other));
     }
 }
 
