@@ -35,6 +35,18 @@ fn the_bundled_sweep_of_tests_is_of_all_tuned_methods() {
 }
 
 #[test]
+fn the_bundled_sweep_of_ortiz_compares_boxes_clusters_and_slices() {
+    let config = Config::resolve(Some(&repository("configs/ortiz-ci.json")), Layer::default()).unwrap();
+    let parts = crate::sweep::parts(&config).unwrap();
+    assert_eq!(parts.iter().map(|part| part.runs.len()).collect::<Vec<_>>(), [27, 25]);
+    let runs = || parts.iter().flat_map(|part| &part.runs);
+    assert!(runs().all(|run| run.check().is_ok()));
+    for value in ["box_all_geometric", "exact_visible_uniform-view", "100_box_visible_uniform-ndc"] {
+        assert!(runs().any(|run| run.name.ends_with(value)), "{value}");
+    }
+}
+
+#[test]
 fn bundled_sweeps_are_the_experiments_of_the_thesis() {
     let names = |file: &str| {
         let config = Config::resolve(Some(&repository(file)), Layer::default()).unwrap();

@@ -49,7 +49,7 @@ fn of_aspects(set: &ResultSet) -> Table {
         caption: "Computed, not measured. Of each cluster the longest over the shortest of width, height and depth, with width and height \
                   in the middle of its depth: 1 is a cube.",
         labels: &["slices"],
-        groups: vec![("slices", &[""]), ("edge ratio", &["mean", "least", "largest"])],
+        groups: vec![("how many", &[""]), ("edge ratio", &["mean", "least", "largest"])],
         rows: rows.collect(),
     }
 }
