@@ -123,7 +123,7 @@ fn the_frames_of_least_and_most_discontinuity_are_found_and_told() {
             assert_eq!(table[frame], steps * 1_000_000 / (pairs * u64::from(OCTAVE_PARTS)), "frame {frame}");
         }
     }
-    // The same as where the frames are named, and found there, the run is not made again.
+    // Images are those of frames that are named; and a run whose frames were found is not made again.
     let named = tempfile::tempdir().unwrap();
     hall(named.path(), &[&methods[..], &["--exr", &format!("{least},{most}")]].concat());
     let mut compare = manylight();
@@ -189,4 +189,57 @@ fn groups_are_drawn_by_their_lights_beside_where_they_are() {
             .collect();
         assert_eq!(pixel.0[..], expected[..], "pixel {x}, {y} of {} lights", lights[place]);
     }
+}
+
+/// The rows of a run's `memory.csv`: allocated, used and most by structure.
+fn memory(run: &Path) -> BTreeMap<String, [u64; 3]> {
+    let mut reader = csv::Reader::from_path(run.join("memory.csv")).unwrap();
+    let rows = reader.deserialize().map(|row| {
+        let (structure, _, allocated, used, most): (String, String, u64, u64, u64) = row.unwrap();
+        (structure, [allocated, used, most])
+    });
+    rows.collect()
+}
+
+#[test]
+fn memory_is_what_frames_hold_within_what_buffers_grew_to() {
+    let out = tempfile::tempdir().unwrap();
+    let methods = ["--method", "sc-e-16-24", "--method", "dc-i-16-24"];
+    let small = ["--visible-cluster-capacity", "1", "--light-index-capacity", "1"];
+    hall(out.path(), &[&methods[..], &small].concat());
+    for method in ["sc-e-16-24", "dc-i-16-24"] {
+        let run = out.path().join(method);
+        let found = memory(&run);
+        for (structure, counter) in
+            [("light_indices", "light_indices"), ("visible_clusters", "visible_clusters")]
+        {
+            let bytes: Vec<u64> =
+                column(&run.join("frames.csv"), counter).into_values().map(|count| 4 * count).collect();
+            let [allocated, used, most] = found[structure];
+            assert_eq!(used, bytes.iter().sum::<u64>() / bytes.len() as u64, "{method} {structure}");
+            assert_eq!(most, *bytes.iter().max().unwrap(), "{method} {structure}");
+            // Growing leaves a fifth of room.
+            assert!((most..=most + most / 5).contains(&allocated), "{method} {structure}: {allocated}");
+        }
+        let manifest: serde_json::Value = serde_json::from_str(&program::read(run.join("run.json"))).unwrap();
+        assert_eq!(manifest["memory_bytes"], found.values().map(|[allocated, ..]| allocated).sum::<u64>());
+        assert_eq!(found.contains_key("cluster_bits"), method == "sc-e-16-24", "what marking alone needs");
+    }
+    let lists = |method: &str| memory(&out.path().join(method))["light_indices"][1];
+    assert!(lists("sc-e-16-24") * 4 < lists("dc-i-16-24"), "most clusters hold nothing that is seen");
+
+    let table = out.path().join("memory.csv");
+    succeed(manylight().args(["export", "--memory", "--out"]).arg(&table).arg(out.path()));
+    let mut reader = csv::Reader::from_path(&table).unwrap();
+    let rows: Vec<BTreeMap<String, String>> = reader.deserialize().map(Result::unwrap).collect();
+    assert_eq!(
+        rows.len(),
+        ["sc-e-16-24", "dc-i-16-24"]
+            .map(|method| memory(&out.path().join(method)).len())
+            .iter()
+            .sum::<usize>()
+    );
+    let row =
+        rows.iter().find(|row| row["method"] == "sc-e-16-24" && row["structure"] == "light_indices").unwrap();
+    assert_eq!((row["used"].clone(), row["purpose"].as_str()), (lists("sc-e-16-24").to_string(), "lists"));
 }
