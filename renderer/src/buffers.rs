@@ -114,7 +114,8 @@ buffers! {
     ClusterBoxes = buffer("cluster_boxes", Owner::Clustering)
         .storage("ClusterBox cluster_boxes[]")
         .texels("cluster_box", Element::Struct(ClusterBox::INFO))
-        .sized(|s| bytes::<ClusterBox>(s.boxes()));
+        .sized(|s| bytes::<ClusterBox>(s.boxes()))
+        .serving(Purpose::Grouping);
     /// Sums of the blocks of a prefix sum.
     BlockSums = buffer("block_sums", Owner::Clustering)
         .storage("uint block_sums[]")
