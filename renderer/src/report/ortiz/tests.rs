@@ -115,8 +115,8 @@ fn lists_within_the_noise_of_the_bound_are_undecided() {
     let claim = claim_of("O3", with(3.05, loose));
     assert_eq!(claim.verdict, Verdict::Undecided);
     assert!(claim.evidence[0].interval.unwrap().straddles(0.0));
-    assert_eq!(verdict("O3", with(30.0, loose)), Verdict::Holds);
-    assert_eq!(verdict("O3", with(3.05, [[1.0, 1.0002, 1.0001]; 2])), Verdict::Holds);
+    // What both share in a run cancels.
+    assert_eq!(verdict("O3", with(3.05, [loose[0]; 2])), Verdict::Holds);
 }
 
 #[test]
