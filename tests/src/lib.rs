@@ -8,7 +8,7 @@ pub use manylight::selftest::{METHODS, difference};
 use flate2::read::GzDecoder;
 use image::RgbImage;
 use manylight::assign::Marking;
-use manylight::config::Config;
+use manylight::config::{Config, ExrFrames, FrameRange};
 use manylight::inputs::Inputs;
 use manylight::measure::{ClusterLists, FrameCounts, FrameTimes, ViewPixels};
 use manylight::methods::Method;
@@ -38,6 +38,21 @@ pub fn methods_serving(msaa: u32, marking: Marking) -> Vec<Method> {
         Config { methods: vec![*method], msaa, marking, ..Config::default() }.check_case().is_ok()
     };
     methods(&METHODS).into_iter().filter(serves).collect()
+}
+
+/// Three small frames of a recording by these methods, counted and pictured, nothing timed.
+pub fn three_frames(recording: &str, msaa: u32, marking: Marking, names: &[&str]) -> Config {
+    Config {
+        recording: recording.to_owned(),
+        methods: methods(names),
+        resolution: [80, 48],
+        msaa,
+        marking,
+        frames: FrameRange { first: 100, end: Some(581), step: 240 },
+        runs: 0.into(),
+        exr: ExrFrames::All,
+        ..Config::default()
+    }
 }
 
 /// Whether golden files are being rewritten.

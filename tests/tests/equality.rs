@@ -2,23 +2,16 @@
 //! samples a pixel, marked from depth and from geometry, with lists for visible clusters and for all.
 
 use manylight::assign::{Clusters, Marking};
-use manylight::config::{Assign, Config, ExrFrames, FrameRange};
+use manylight::config::{Assign, Config, FrameRange};
 use manylight::lights::Lighting;
 use manylight::measure::ClusteringCounts;
-use manylight_tests::{Run, assert_equal_the_truth, methods, methods_serving, run};
+use manylight_tests::{Run, assert_equal_the_truth, methods, methods_serving, run, three_frames};
 
 fn config(recording: &str, msaa: u32, marking: Marking) -> Config {
     Config {
-        recording: recording.to_owned(),
         methods: methods_serving(msaa, marking),
-        resolution: [80, 48],
-        msaa,
-        marking,
         clusters: vec![Clusters::Visible.into(), Clusters::All.into()],
-        frames: FrameRange { first: 100, end: Some(581), step: 240 },
-        runs: 0.into(),
-        exr: ExrFrames::All,
-        ..Config::default()
+        ..three_frames(recording, msaa, marking, &[])
     }
 }
 

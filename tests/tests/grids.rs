@@ -6,25 +6,11 @@ use manylight::config::{Assign, Choice, Config, ExrFrames, FrameRange};
 use manylight::geometry::SliceLaw;
 use manylight::lights::Lighting;
 use manylight::measure::{ClusterLists, ClusteringCounts};
-use manylight_tests::{Run, assert_equal_the_truth, methods, run};
+use manylight_tests::{Run, assert_equal_the_truth, run, three_frames};
 use std::collections::BTreeSet;
 
 /// Tiles and clusters by name, as small as the pictures ask for.
 const NAMES: [&str; 6] = ["t-i-9", "t-e-9", "dc-i-16-12", "dc-e-12-10", "sc-i-12-10", "sc-e-12-10"];
-
-fn config(recording: &str, msaa: u32, marking: Marking, names: &[&str]) -> Config {
-    Config {
-        recording: recording.to_owned(),
-        methods: methods(names),
-        resolution: [80, 48],
-        msaa,
-        marking,
-        frames: FrameRange { first: 100, end: Some(581), step: 240 },
-        runs: 0.into(),
-        exr: ExrFrames::All,
-        ..Config::default()
-    }
-}
 
 /// Runs of a configuration, the first of all lights, whose pictures and counts are those of the first.
 fn alike(config: Config) -> Vec<Run> {
@@ -36,7 +22,7 @@ fn alike(config: Config) -> Vec<Run> {
 
 fn named_methods_are_alike(recording: &str, msaa: u32, marking: Marking) {
     let names = [&["all-lights"][..], &NAMES].concat();
-    alike(config(recording, msaa, marking, &names));
+    alike(three_frames(recording, msaa, marking, &names));
 }
 
 #[test]
@@ -67,7 +53,7 @@ fn any_grid_can_be_measured() {
         alike(Config {
             bounds: vec![Bounds::Measured.into()],
             clusters: vec![Clusters::Visible.into(), Clusters::All.into()],
-            ..config("bistro-vive", msaa, Marking::Depth, &names)
+            ..three_frames("bistro-vive", msaa, Marking::Depth, &names)
         });
     }
 }
@@ -78,7 +64,7 @@ fn slices_may_begin_by_any_law() {
     let runs = alike(Config {
         slices: laws,
         frames: FrameRange { first: 300, end: Some(301), step: 1 },
-        ..config("bistro-vive", 1, Marking::Depth, &["all-lights", "dc-e-12-10", "encl-persp-16"])
+        ..three_frames("bistro-vive", 1, Marking::Depth, &["all-lights", "dc-e-12-10", "encl-persp-16"])
     });
     assert_eq!(runs.len(), 1 + 2 * SliceLaw::EXAMPLES.len());
     let visible: BTreeSet<u64> =
@@ -113,7 +99,7 @@ fn measured_lists_are_within_those_of_cells_and_the_same_by_all_ways() {
         bounds: vec![Bounds::Implicit.into(), Bounds::Measured.into()],
         assign: vec![Assign::Brute, Assign::Hierarchy, Assign::Scatter],
         exr: ExrFrames::List(vec![]),
-        ..config("bistro-vive", 1, Marking::Depth, &names)
+        ..three_frames("bistro-vive", 1, Marking::Depth, &names)
     });
     for of_method in runs.chunks(6) {
         let [implicit, measured] = [0, 1].map(|bounds| &of_method[bounds]);
@@ -136,7 +122,7 @@ fn visible_clusters_have_the_same_lists_among_all() {
             bounds: vec![bounds.into()],
             clusters: vec![Clusters::Visible.into(), Clusters::All.into()],
             exr: ExrFrames::List(vec![]),
-            ..config("bistro-vive", 1, Marking::Depth, &["tiled-9", "sc-i-12-10"])
+            ..three_frames("bistro-vive", 1, Marking::Depth, &["tiled-9", "sc-i-12-10"])
         });
         for pair in runs.chunks(2) {
             let [sparse, dense] = pair else { panic!("two runs a method") };
@@ -160,7 +146,7 @@ fn a_tiles_list_is_that_of_all_its_clusters() {
     let runs = run(Config {
         lights: vec![Lighting::with_count(3000)],
         exr: ExrFrames::List(vec![]),
-        ..config("bistro", 1, Marking::Depth, &["t-i-12", "dc-i-12-10", "t-e-12", "dc-e-12-10"])
+        ..three_frames("bistro", 1, Marking::Depth, &["t-i-12", "dc-i-12-10", "t-e-12", "dc-e-12-10"])
     });
     for (tiles, clusters, equal) in [(&runs[0], &runs[1], true), (&runs[2], &runs[3], false)] {
         for place in 0..tiles.lists.len() {

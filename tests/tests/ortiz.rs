@@ -7,22 +7,13 @@ use manylight::geometry::{SliceLaw, SphereTest};
 use manylight::lights::Lighting;
 use manylight_tests::program::{refused, small};
 use manylight_tests::scenes::recording;
-use manylight_tests::{Run, assert_equal_the_truth, methods, run};
+use manylight_tests::{Run, assert_equal_the_truth, run, three_frames};
 use std::path::Path;
 
 const NAME: &str = "ortiz-16-9-24";
 
 fn config(scene: &str, recording: &str, names: &[&str]) -> Config {
-    Config {
-        scene: scene.into(),
-        recording: recording.into(),
-        methods: methods(names),
-        resolution: [80, 48],
-        frames: FrameRange { first: 100, end: Some(581), step: 240 },
-        runs: 0.into(),
-        exr: ExrFrames::All,
-        ..Config::default()
-    }
+    Config { scene: scene.into(), ..three_frames(recording, 1, Marking::Depth, names) }
 }
 
 /// Visible clusters and all, by boxes and by the pieces of the frustum themselves.

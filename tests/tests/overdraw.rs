@@ -8,23 +8,15 @@ use manylight::lights::Lighting;
 use manylight::measure::DeviceCounts;
 use manylight::shading::Shading;
 use manylight_tests::scenes::{Quad, recording, write_quads};
-use manylight_tests::{Run, assert_equal_the_truth, methods, run};
+use manylight_tests::{Run, assert_equal_the_truth, methods, run, three_frames};
 
 const METHODS: [&str; 7] =
     ["all-lights", "indi-persp-64", "t-e-28", "sc-e-48-40", "dc-i-128-64", "g-20", "m"];
 
 fn config(recording: &str, msaa: u32, marking: Marking) -> Config {
     Config {
-        recording: recording.to_owned(),
-        methods: methods(&METHODS),
         shading: vec![Shading::Prepass, Shading::Overdraw],
-        resolution: [80, 48],
-        msaa,
-        marking,
-        frames: FrameRange { first: 100, end: Some(581), step: 240 },
-        runs: 0.into(),
-        exr: ExrFrames::All,
-        ..Config::default()
+        ..three_frames(recording, msaa, marking, &METHODS)
     }
 }
 

@@ -75,11 +75,12 @@ fn both_orders_count_alike_and_write_everything() {
         }
         let counts = |run: &Path| -> Vec<String> {
             let table = read(run.join("frames.csv"));
-            let of = |line: &str| line.split(',').take(14).collect::<Vec<_>>().join(",");
+            let columns = table.split(',').position(|column| column == "gpu_ms_frame").unwrap();
+            let of = |line: &str| line.split(',').take(columns).collect::<Vec<_>>().join(",");
             table.lines().map(of).collect()
         };
         assert_eq!(counts(&a), counts(&b), "{name}");
-        assert!(counts(&a)[0].ends_with("visible_clusters_dropped"), "{}", counts(&a)[0]);
+        assert!(counts(&a)[0].contains("lighting_computations"), "{}", counts(&a)[0]);
         assert_eq!((numbers(&a), numbers(&b)), (BTreeSet::from([0, 1]), BTreeSet::from([0, 1])));
         let [of_a, of_b] = [&a, &b].map(|run| manifest(run)["timing"].clone());
         assert_eq!((&of_a["order"], &of_b["order"]), (&"interleaved".into(), &"sequential".into()));

@@ -16,23 +16,14 @@ use manylight::methods::{GridBox, Scenery};
 use manylight::output::planned_runs;
 use manylight::still::{self, Item, Show, Viewpoint};
 use manylight_tests::scenes::write_lights;
-use manylight_tests::{Run, assert_equal_the_truth, methods, run};
+use manylight_tests::{Run, assert_equal_the_truth, methods, run, three_frames};
 use std::collections::BTreeSet;
 use std::path::Path;
 
 const METHODS: [&str; 3] = ["all-lights", "g-20", "m"];
 
 fn config(scene: &str, recording: &str) -> Config {
-    Config {
-        scene: scene.into(),
-        recording: recording.into(),
-        methods: methods(&METHODS),
-        resolution: [80, 48],
-        frames: FrameRange { first: 100, end: Some(581), step: 240 },
-        runs: 0.into(),
-        exr: ExrFrames::All,
-        ..Config::default()
-    }
+    Config { scene: scene.into(), ..three_frames(recording, 1, Marking::Depth, &METHODS) }
 }
 
 /// Checks pictures and counts of every run against those of the first, over all lights.

@@ -103,6 +103,19 @@ pub fn surfaces(r: &mut Recorder, frame: &Frame, pass: &SurfacePass) {
     unsafe { r.context.device.cmd_end_rendering(r.commands()) };
 }
 
+/// Draws surfaces of a view against the depth that it has, for what their fragments put into buffers.
+pub fn visits(
+    r: &mut Recorder,
+    frame: &Frame,
+    view: usize,
+    draws: &[(SurfaceKind, SurfacePipelines)],
+    (reads, writes): (BufferSet, BufferSet),
+) {
+    let pass =
+        SurfacePass { eyes: Eyes::One(view), colors: &[], depth: DepthUse::Test, draws, reads, writes };
+    surfaces(r, frame, &pass);
+}
+
 /// Instances of a shape that a vertex shader makes, drawn over a picture.
 #[derive(Clone, Copy)]
 pub struct Overlay<'a> {

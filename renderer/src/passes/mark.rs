@@ -1,7 +1,7 @@
 //! Stage `mark[v]`: which clusters hold visible fragments (Gelderen section 5.2). In atemporal runs the same
 //! fragments are visited once more, when clusters are ranked, to count those of each visible cluster.
 
-use super::draws::{self, DepthUse, SurfacePass, SurfacePipelines};
+use super::draws::{self, SurfacePipelines};
 use super::handles::Depth;
 use super::inputs::{Eyes, Frame, PLACES};
 use crate::assign::Marking;
@@ -63,16 +63,5 @@ pub(super) fn visit(
     let draws =
         SurfaceKind::ALL.map(|kind| (kind, SurfacePipelines::One(&pipelines.geometry[kind as usize])));
     let first = SurfaceKind::ALL.len() - kinds.len();
-    draws::surfaces(
-        r,
-        frame,
-        &SurfacePass {
-            eyes: Eyes::One(view),
-            colors: &[],
-            depth: DepthUse::Test,
-            draws: &draws[first..],
-            reads,
-            writes,
-        },
-    );
+    draws::visits(r, frame, view, &draws[first..], (reads, writes));
 }

@@ -1,8 +1,8 @@
 //! Which fragments are seen in the end, with overdraw: shading has counted all that may be hidden. Atemporal runs alone, after
 //! the frame, whose depth is that of shading.
 
-use super::draws::{self, DepthUse, SurfacePass, SurfacePipelines};
-use super::inputs::{Eyes, Frame};
+use super::draws::{self, SurfacePipelines};
+use super::inputs::Frame;
 use crate::buffers::{BufferName as B, set};
 use crate::draw_list::SurfaceKind;
 use crate::pass::Recorder;
@@ -11,21 +11,11 @@ use crate::pass::Recorder;
 /// to do after a prepass, where what is shaded is seen.
 pub fn record(r: &mut Recorder, frame: &Frame) {
     let Some([opaque, masked]) = &frame.pipelines.seen else { return };
+    let solid = [
+        (SurfaceKind::Opaque, SurfacePipelines::One(opaque)),
+        (SurfaceKind::Masked, SurfacePipelines::One(masked)),
+    ];
     for view in 0..frame.targets.len() {
-        draws::surfaces(
-            r,
-            frame,
-            &SurfacePass {
-                eyes: Eyes::One(view),
-                colors: &[],
-                depth: DepthUse::Test,
-                draws: &[
-                    (SurfaceKind::Opaque, SurfacePipelines::One(opaque)),
-                    (SurfaceKind::Masked, SurfacePipelines::One(masked)),
-                ],
-                reads: frame.list_places(),
-                writes: set(&[B::Counters]),
-            },
-        );
+        draws::visits(r, frame, view, &solid, (frame.list_places(), set(&[B::Counters])));
     }
 }
