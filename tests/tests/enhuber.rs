@@ -7,13 +7,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The configuration in the street alone, by a few of its tests, in pictures of a few hundred pixels.
+/// The configuration in the street alone, in pictures of a few hundred pixels.
 fn configuration(out: &Path) -> PathBuf {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../configs/enhuber-ci.json");
     let mut config: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
     config["scenes"] = json!([{ "scene": "street", "recording": "bistro", "frames": "160..441/140" }]);
     config["resolution"] = json!([32, 18]);
-    config["test"] = json!(["hs+sat-n", "hs", "hs+sat-epv", "auto"]);
     config["runs"] = json!(2);
     config["out"] = json!(out.join("results"));
     let path = out.join("config.json");
