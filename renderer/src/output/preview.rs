@@ -60,7 +60,7 @@ fn displayed(view: &ViewPixels, pixel: usize) -> [u8; 3] {
 }
 
 /// The image blended, half and half, with the lights of each pixel's group as colour, by the same scale in every frame of every
-/// method: blue for none to red for 150, green for more (see [`heat`]). Where nothing was hit, the image alone.
+/// method: blue for none to red for 150, green for more. Where nothing was hit, the image alone.
 pub fn heat_preview(views: &[ViewPixels]) -> RgbImage {
     side_by_side(views, |view, pixel| {
         let image = displayed(view, pixel);
