@@ -1,0 +1,41 @@
+//! All whole-program tests but one in one program: they share its building, and whatever core is free takes the next of them.
+//! (What allocates in the frame loop is counted for a whole process, by `allocations` alone.)
+
+mod analysis;
+mod bench;
+mod command_line;
+mod commands;
+mod corpus;
+mod depth_slices;
+mod drivers;
+mod enhuber;
+mod equality;
+mod export;
+mod far_away;
+mod golden;
+mod grids;
+mod invariants;
+mod light_sources;
+mod list_stores;
+mod mirror;
+mod models;
+mod multiview;
+mod ortiz;
+mod outputs;
+mod overdraw;
+mod pictures;
+mod reference;
+mod relations;
+mod report;
+mod results;
+mod selftest;
+mod sphere_tests;
+mod still;
+mod surfaces;
+mod sweep;
+mod thesis_ci;
+mod tune;
+mod turns;
+mod twins;
+mod validation;
+mod world;
