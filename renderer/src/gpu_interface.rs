@@ -154,7 +154,7 @@ const STRUCTS: [StructInfo; 17] = [
 ];
 
 /// Names of what shader variants choose among; the value is the position.
-const VARIANT_NAMES: [&[&str]; 10] = [
+const VARIANT_NAMES: [&[&str]; 11] = [
     &["SPACE_PERSPECTIVE", "SPACE_ORTHOGRAPHIC", "SPACE_MODEL"],
     &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS", "SCAN_DIGITS", "SCAN_GROUPS"],
     &["ASSIGN_BRUTE", "ASSIGN_HIERARCHY", "ASSIGN_SCATTER"],
@@ -172,6 +172,7 @@ const VARIANT_NAMES: [&[&str]; 10] = [
     &["CULLING_CPU", "CULLING_GPU"],
     &["BOUNDS_CELL", "BOUNDS_DEPTH", "BOUNDS_BOX"],
     &["VISIT_MARK", "VISIT_COUNT", "VISIT_BOUNDS"],
+    &["MATERIAL_TEXTURED", "MATERIAL_WHITE"],
 ];
 
 /// The part of the include that declares all of this to shaders.

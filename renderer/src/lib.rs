@@ -35,6 +35,7 @@ mod json;
 pub mod layouts;
 pub mod lights;
 pub mod machine;
+pub mod material;
 pub mod measure;
 pub mod methods;
 mod nearest;

@@ -234,7 +234,10 @@ impl PipelineStore {
         kind: SurfaceKind,
     ) -> Result<BTreeMap<TextureSet, Arc<Pipeline>>> {
         let sets = self.texture_sets[kind as usize].clone();
-        let mut of = |set| self.graphics(variant, Some("shade/forward.frag"), Output::Shades(kind, set));
+        let mut of = |set| {
+            let sampled = variant.sampled(kind, set);
+            self.graphics(variant, Some("shade/forward.frag"), Output::Shades(kind, sampled))
+        };
         sets.into_iter().map(|set| Ok((set, of(set)?))).collect()
     }
 

@@ -22,6 +22,11 @@ impl TextureSet {
         Self(if dark { all & !(1 << TextureSlot::Emissive as u32) } else { all })
     }
 
+    /// What is in both sets.
+    pub fn and(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+
     /// A bit for each [`TextureSlot`].
     pub fn bits(self) -> u32 {
         self.0

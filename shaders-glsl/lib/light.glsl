@@ -1,4 +1,4 @@
-// Point lights and their attenuation (Gelderen appendix A). ATTENUATION is the position in the table of the host's enum.
+// Point lights and their attenuation (Gelderen appendix A, Tegelaers section 3.1). ATTENUATION is the position in the table of the host's enum.
 #pragma once
 
 #include "generated/gpu_interface.glsl"
@@ -19,6 +19,7 @@ float table_attenuation(LightData light, float d)
     case ATTENUATION_PHY_SMO_1: return inverse_square + light.cutoff * x * (2.0 * x - 3.0);
     case ATTENUATION_PHY_SMO_2: return inverse_square + light.cutoff * x * x * (2.0 * x - 3.0);
     case ATTENUATION_LIN: return light.intensity * (1.0 - x);
+    case ATTENUATION_TEGELAERS: return (1.0 - x) * (1.0 - x);
     default: return light.intensity;
     }
 }

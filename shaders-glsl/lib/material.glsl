@@ -1,8 +1,10 @@
-// A material at a point of its surface.
+// A material at a point of its surface. Where MATERIAL is white, so is every surface, and of what its own material says
+// alpha alone counts.
 #pragma once
 
 #include "generated/gpu_interface.glsl"
 #include "lib/texture_slots.glsl"
+#include "lib/white.glsl"
 
 layout(set = SET_MATERIAL, binding = BASE_COLOR) uniform sampler2D base_color_texture;
 layout(set = SET_MATERIAL, binding = METALLIC_ROUGHNESS) uniform sampler2D metallic_roughness_texture;
@@ -44,6 +46,9 @@ vec4 base_color(TextureCoordinates at, vec4 color)
 #if HAS_TEXTURE(BASE_COLOR)
     base *= sample_texture(base_color_texture, BASE_COLOR, at);
 #endif
+#if MATERIAL == MATERIAL_WHITE
+    base.rgb = vec3(1.0);
+#endif
     return base;
 }
 
@@ -76,3 +81,15 @@ vec3 emissive(TextureCoordinates at)
     return radiance;
 }
 
+// A faint even light, so that occlusion maps and places that no light reaches can be seen.
+const float AMBIENT = 0.02;
+
+// Radiance of a surface of a linear base colour whatever lights there are.
+vec3 radiance_without_lights(TextureCoordinates at, vec3 base)
+{
+#if MATERIAL == MATERIAL_WHITE
+    return vec3(WHITE_AMBIENT);
+#else
+    return AMBIENT * base * occlusion(at) + emissive(at);
+#endif
+}

@@ -20,8 +20,6 @@ layout(early_fragment_tests) in;
 
 layout(location = 0) out vec4 out_color;
 
-// A faint even light, so that occlusion maps and places that no light reaches can be seen.
-const float AMBIENT = 0.02;
 // Shown where a fragment's cluster is missing (Gelderen figure 5.1).
 const vec3 MISSING_CLUSTER = vec3(1.0, 0.0, 1.0);
 
@@ -55,7 +53,7 @@ void main()
     bool unlit = material.unlit != 0u;
     if (unlit)
         cursor.end = cursor.next;
-    vec3 radiance = AMBIENT * base.rgb * occlusion(at) + emissive(at);
+    vec3 radiance = radiance_without_lights(at, base.rgb);
     radiance += shade_lights(fragment_surface(at, view, base.rgb), cursor);
     if (unlit)
         radiance = base.rgb;

@@ -10,6 +10,7 @@ use crate::assign::{Bounds, Clusters, Compaction, ListStore, Marking};
 use crate::culling::Culling;
 use crate::geometry::{DisplacedVolume, SliceLaw, SphereTest};
 use crate::lights::{Attenuation, GeneratorKind, LatticeBox, LightBox, LightMotion, LightSet, Lighting};
+use crate::material::MaterialModel;
 use crate::measure::Order;
 use crate::methods::{GridBox, KINDS, Method, Sharing, Space};
 use crate::shading::Shading;
@@ -193,12 +194,18 @@ settings! {
         schemars(schema_with = "schema::trace")
         check(ExrFrames::check_named)
     }
-    /// How a light fades with distance: phy, red, smo, phy_red_1, phy_red_2, phy_smo_1, phy_smo_2, lin or stp.
+    /// How a light fades with distance: phy, red, smo, phy_red_1, phy_red_2, phy_smo_1, phy_smo_2, lin, stp, or
+    /// tegelaers.
     attenuation: Attenuation = Attenuation::PhyRed2, Counts {
         arg(long, value_name = "NAME")
         serde(default, deserialize_with = "de::attenuation")
         schemars(schema_with = "schema::attenuation")
         write(serialize_with = "ser::attenuation")
+    }
+    /// What surfaces are made of: `textured`, as the scene has it, or `white`, Lambert without 1/pi over an even tenth, with
+    /// neither textures nor normal maps (Tegelaers, whose lights fade by `attenuation` tegelaers). Alpha is the scene's.
+    material: MaterialModel = MaterialModel::Textured, Counts {
+        arg(long, value_enum)
     }
     /// What the visible clusters of opaque and masked geometry are marked from.
     marking: Marking = Marking::Depth, Counts {

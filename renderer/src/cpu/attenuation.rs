@@ -1,4 +1,4 @@
-//! How a light fades with distance (Gelderen appendix A).
+//! How a light fades with distance (Gelderen appendix A, Tegelaers section 3.1).
 
 use crate::lights::{Attenuation, PointLight};
 
@@ -24,6 +24,7 @@ pub fn attenuation(function: Attenuation, light: &PointLight, distance: f64) -> 
         Attenuation::PhySmo2 => physical + 2.0 * i0 * part.powi(3) - 3.0 * i0 * part.powi(2),
         Attenuation::Lin => i * (r1 - d) / r1,
         Attenuation::Stp => i,
+        Attenuation::Tegelaers => (1.0 - part).powi(2),
     };
     value.max(0.0)
 }
@@ -37,17 +38,15 @@ mod tests {
     const LIGHT: PointLight =
         PointLight { position: [0.0; 3], tint: [1.0; 3], intensity: 8.0, cutoff: 0.5, r0: 0.5, r1: 4.0 };
 
-    const ALL: [Attenuation; 9] = [Phy, Red, Smo, PhyRed1, PhyRed2, PhySmo1, PhySmo2, Lin, Stp];
-
     #[test]
     fn every_function_has_its_value_at_half_the_radius() {
-        let values = ALL.map(|function| attenuation(function, &LIGHT, 2.0));
-        assert_eq!(values, [2.0, 1.5, 1.0, 1.75, 1.875, 1.5, 1.75, 4.0, 8.0]);
+        let values = Attenuation::ALL.map(|function| attenuation(function, &LIGHT, 2.0));
+        assert_eq!(values, [2.0, 1.5, 1.0, 1.75, 1.875, 1.5, 1.75, 4.0, 8.0, 0.25]);
     }
 
     #[test]
     fn it_is_flat_up_to_r0_and_nothing_from_r1_on() {
-        for function in ALL {
+        for function in Attenuation::ALL {
             assert_eq!(attenuation(function, &LIGHT, 0.0), attenuation(function, &LIGHT, 0.5));
             assert_eq!(attenuation(function, &LIGHT, 4.0), 0.0);
             assert_eq!(attenuation(function, &LIGHT, 9.0), 0.0);
@@ -56,17 +55,19 @@ mod tests {
 
     #[test]
     fn all_but_the_two_with_an_edge_fade_to_nothing() {
-        for function in [Red, Smo, PhyRed1, PhyRed2, PhySmo1, PhySmo2, Lin] {
+        for function in [Red, Smo, PhyRed1, PhyRed2, PhySmo1, PhySmo2, Lin, Tegelaers] {
             assert!(attenuation(function, &LIGHT, 4.0 - 1e-9).abs() < 1e-7, "{function:?}");
         }
-        let slope = attenuation(Smo, &LIGHT, 4.0 - 1e-4) / 1e-4;
-        assert!(slope.abs() < 1e-3, "smo ends without a kink");
+        for function in [Smo, Tegelaers] {
+            let slope = attenuation(function, &LIGHT, 4.0 - 1e-4) / 1e-4;
+            assert!(slope.abs() < 1e-3, "{function:?} ends without a kink");
+        }
     }
 
     #[test]
     fn a_reach_beyond_the_cutoff_takes_no_light_away() {
         let wide = PointLight { r1: 8.0, ..LIGHT };
-        for function in ALL {
+        for function in Attenuation::ALL {
             for distance in [0.5, 3.9, 4.1, 6.0, 7.9] {
                 assert!(attenuation(function, &wide, distance) >= 0.0, "{function:?} at {distance} m");
             }

@@ -149,6 +149,7 @@ impl Chosen {
             lights_at_once: lights_at_once(self.method.has_lists(), mode.lights),
             shading: run.shading[0],
             attenuation: run.attenuation,
+            material: run.material,
             counting: mode.counting,
         }
     }

@@ -7,10 +7,11 @@ use crate::report::Found;
 use serde_json::Value;
 
 /// Fields of a run's configuration that are no axes and bear on what it measures; their columns are called as they.
-const OPTIONS: [&str; 9] = [
+const OPTIONS: [&str; 10] = [
     "light_source",
     "msaa",
     "attenuation",
+    "material",
     "marking",
     "displaced_volume",
     "grid_box",

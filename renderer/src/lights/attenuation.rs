@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use std::fmt;
 use std::str::FromStr;
 
-/// How a light fades with distance (Gelderen appendix A); names as there.
+/// How a light fades with distance (Gelderen appendix A, with names as there, and Tegelaers section 3.1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(into = "&'static str", try_from = "Cow<'_, str>")]
 pub enum Attenuation {
@@ -30,11 +30,13 @@ pub enum Attenuation {
     Lin,
     /// I for d < R1.
     Stp,
+    /// (1 - d/R1)^2, whatever I is (Tegelaers listing 2, which squares; his text in places does not).
+    Tegelaers,
 }
 
 impl Attenuation {
-    /// Every function, in the order of Gelderen's appendix A.
-    pub const ALL: [Self; 9] = [
+    /// Every function: Gelderen's in the order of appendix A, then that of Tegelaers.
+    pub const ALL: [Self; 10] = [
         Self::Phy,
         Self::Red,
         Self::Smo,
@@ -44,6 +46,7 @@ impl Attenuation {
         Self::PhySmo2,
         Self::Lin,
         Self::Stp,
+        Self::Tegelaers,
     ];
 
     /// The name that configs, the command line and shaders use.
@@ -58,6 +61,7 @@ impl Attenuation {
             Self::PhySmo2 => "phy_smo_2",
             Self::Lin => "lin",
             Self::Stp => "stp",
+            Self::Tegelaers => "tegelaers",
         }
     }
 }

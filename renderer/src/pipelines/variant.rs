@@ -6,7 +6,9 @@ use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
 use crate::geometry::{CellShape, Separators, Sharing, SliceLaw, SphereTest};
 use crate::lights::Attenuation;
+use crate::material::MaterialModel;
 use crate::shading::Shading;
+use crate::texture_sets::TextureSet;
 
 /// What a run's shaders are specialised for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,6 +49,8 @@ pub struct Variant {
     pub shading: Shading,
     /// How lights fade.
     pub attenuation: Attenuation,
+    /// What surfaces are made of.
+    pub material: MaterialModel,
     /// Whether counters are compiled in: the atemporal run.
     pub counting: bool,
 }
@@ -99,6 +103,16 @@ impl Variant {
         output == Output::Depth || self.overdraws(output) && !counts_masked
     }
 
+    /// The textures that shading samples of surfaces of a kind, of those that their materials have.
+    pub(super) fn sampled(&self, kind: SurfaceKind, textures: TextureSet) -> TextureSet {
+        let reads_alpha = match kind {
+            SurfaceKind::Opaque => false,
+            SurfaceKind::Masked => self.overdraws(Output::Shades(kind, textures)),
+            SurfaceKind::Transparent => true,
+        };
+        self.material.sampled(textures, reads_alpha)
+    }
+
     /// What draws surfaces of a kind into the picture: with overdraw masked ones are counted by other pipelines.
     pub(super) fn drawing(&self, kind: SurfaceKind) -> Self {
         let counted_apart = self.shading == Shading::Overdraw && kind == SurfaceKind::Masked;
@@ -130,6 +144,10 @@ impl Variant {
             ListStore::Fixed(_) => "LISTS_FIXED",
             ListStore::Capped(_) => "LISTS_CAPPED",
         };
+        let material = match self.material {
+            MaterialModel::Textured => "MATERIAL_TEXTURED",
+            MaterialModel::White => "MATERIAL_WHITE",
+        };
         Defines(vec![])
             .with("LOOKUP", self.lookup)
             .with("SPACE", space)
@@ -140,6 +158,7 @@ impl Variant {
             .with("SLICES", self.slices_define())
             .with("SAMPLES", self.samples)
             .with("PER_SAMPLE", u32::from(self.per_sample()))
+            .with("MATERIAL", material)
             .with("COUNTERS", u32::from(self.counting))
     }
 

@@ -9,8 +9,10 @@ use manylight::geometry::Frustum;
 use manylight::geometry::views::View;
 use manylight::inputs::Inputs;
 use manylight::lights::{Attenuation, GeneratorKind, LightMotion, Lighting, PointLight};
+use manylight::material::MaterialModel;
 use manylight::measure::{ClusterRecord, ViewPixels};
 use manylight::methods::grid::twin;
+use manylight::shading::Shading;
 use manylight_tests::{Run, run, unpacked};
 use std::path::Path;
 
@@ -294,5 +296,68 @@ fn attenuations_equal_their_twin() {
             compared += 1;
         }
         assert!(compared > 50, "only {compared} pixels are lit");
+    }
+}
+
+/// White surfaces show 0.1 + 0.9 n.l (1 - d/R1)^2, nothing of a Cook-Torrance reflection and no 1/pi.
+#[test]
+fn the_white_material_equals_its_formula() {
+    let light = PointLight::new([0.3, 0.2, -4.0], [1.0; 3], 8.0, 0.5, 0.1);
+    let directory = tempfile::tempdir().unwrap();
+    let config = Config {
+        methods: vec!["indi-persp-8".parse().unwrap()],
+        material: MaterialModel::White,
+        attenuation: Attenuation::Tegelaers,
+        ..square(directory.path(), 5.0, [0.4, 20.0], &light)
+    };
+    let frustum = plan(&config).views[0].frustum;
+    let run = run(config).remove(0);
+    let mut lit = 0;
+    for pixel in 0..32 * 18 {
+        let point = point_of(&frustum, pixel, 5.0);
+        let distance = distance_to(&light, point);
+        let facing = (f64::from(light.position[2]) - point[2]) / distance;
+        let reach = (1.0 - distance / f64::from(light.r1)).clamp(0.0, 1.0);
+        let expected = 0.1 + 0.9 * facing * reach.powi(2);
+        let shown = f64::from(run.images[0].1[0].color[pixel][1].to_f32());
+        assert!((shown - expected).abs() < 2e-3, "{shown} instead of {expected} at {distance} m");
+        lit += u32::from(expected > 0.15);
+    }
+    assert!(lit > 50, "only {lit} pixels are lit");
+}
+
+/// On the street, whose surfaces have textures of all kinds, no texture shows where nothing is lit; what is cut out and what
+/// lights do is the same.
+#[test]
+fn no_texture_of_a_white_street_shows_but_alpha() {
+    let dark = Lighting { intensity: 1e-4, cutoff: 1.0, r0: 1e-3, ..Lighting::with_count(1) };
+    let config = |material, lighting| Config {
+        scene: "street".into(),
+        recording: "bistro".into(),
+        methods: vec!["indi-persp-32".parse().unwrap()],
+        shading: vec![Shading::Prepass, Shading::Overdraw],
+        lights: vec![lighting],
+        resolution: [64, 36],
+        frames: FrameRange { first: 300, end: Some(301), step: 1 },
+        runs: 0.into(),
+        exr: ExrFrames::All,
+        material,
+        ..Config::default()
+    };
+    for run in run(config(MaterialModel::White, dark)) {
+        let ViewPixels { color, background, .. } = &run.images[0].1[0];
+        // What a pixel shows of surfaces is before the background as far as it is covered.
+        let off = |pixel: &[f32; 4], k: usize| pixel[k] - background[k] * (1.0 - pixel[3]) - 0.1 * pixel[3];
+        let pixels = color.iter().map(|pixel| pixel.map(|value| value.to_f32()));
+        let worst = pixels.flat_map(|pixel| [0, 1, 2].map(|k| off(&pixel, k).abs())).fold(0.0, f32::max);
+        assert!(worst < 1e-3 && color.len() == 64 * 36, "{}: {worst}", run.planned.name);
+    }
+    let both = [MaterialModel::Textured, MaterialModel::White]
+        .map(|material| run(config(material, Lighting::with_count(1000))));
+    for (textured, white) in both[0].iter().zip(&both[1]) {
+        assert_eq!(textured.counts, white.counts);
+        let [textured, white] = [textured, white].map(|run| &run.images[0].1[0]);
+        assert_eq!(textured.depth, white.depth);
+        assert_ne!(textured.color, white.color);
     }
 }

@@ -18,8 +18,9 @@ pub fn figure() -> Figure {
         bold: function == Attenuation::default(),
         ..Look::plain(NAMED[index])
     };
-    let series: Vec<Series> = Attenuation::ALL
-        .into_iter()
+    // The others are not the thesis's.
+    let drawn = Attenuation::ALL.into_iter().filter(|function| *function != Attenuation::Tegelaers);
+    let series: Vec<Series> = drawn
         .enumerate()
         .map(|(index, function)| Series {
             name: function.name().into(),
