@@ -38,6 +38,7 @@ pub mod machine;
 pub mod measure;
 pub mod methods;
 mod nearest;
+pub mod octree;
 pub mod origin;
 pub mod output;
 pub mod pass;
