@@ -20,6 +20,7 @@ mod layers;
 mod light_grid;
 mod light_tree;
 mod linkless;
+mod memory;
 pub mod perfect_hash;
 mod settings;
 mod top_down;
@@ -28,6 +29,7 @@ mod tree;
 pub use build::{BuildTimes, Built};
 pub use frame::{MOST_DEPTH, OctreeFrame};
 pub use linkless::{HashTable, Layer, LinklessOctree};
+pub use memory::{LayerMemory, TableMemory};
 pub use settings::{OctreeError, OctreeLimits, OctreeSettings, Route, Sphere};
 
 #[cfg(test)]

@@ -14,6 +14,13 @@ mod sizes;
 mod slots;
 
 use glam::{U8Vec3, UVec3};
+use rand_pcg::Pcg32;
+
+/// How often a size of the table of offsets is tried where keys are few: whether the last of them find a slot is luck then.
+const TRIES: u64 = 4;
+
+/// Keys from which on a size is tried once: many keys know no luck, but take long.
+const MANY_KEYS: usize = 1 << 16;
 
 /// A perfect hash of some keys.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -47,8 +54,8 @@ pub enum HashError {
 }
 
 impl PerfectHash {
-    /// The hash of distinct keys, of which there is at least one: as small a table as the settings allow, and as few
-    /// offsets as do.
+    /// The hash of distinct keys, of which there is at least one: as small a table as the settings allow, and the first of
+    /// growing tables of offsets that does.
     ///
     /// # Errors
     /// The table is larger than the settings allow, or no offsets separate the keys.
@@ -59,9 +66,13 @@ impl PerfectHash {
             if slots > settings.most_slots { Err(HashError::TooLarge(slots)) } else { Ok(side) }
         };
         checked(side)?;
+        let tries = if keys.len() < MANY_KEYS { TRIES } else { 1 };
         for offset_side in sizes::offset_sides(keys.len(), side) {
             checked(offset_side)?;
-            if let Some(offsets) = place::offsets(keys, side, offset_side, settings.seed) {
+            let found = (0..tries)
+                .map(|attempt| Pcg32::new(settings.seed, attempt))
+                .find_map(|random| place::offsets(keys, side, offset_side, random));
+            if let Some(offsets) = found {
                 return Ok(Self { side, offset_side, offsets });
             }
         }
@@ -90,3 +101,6 @@ fn linear(at: UVec3, side: u32) -> usize {
     let side = side as usize;
     at.x as usize + side * (at.y as usize + side * at.z as usize)
 }
+
+#[cfg(test)]
+mod tests;

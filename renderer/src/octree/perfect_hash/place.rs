@@ -10,21 +10,22 @@ use glam::{U8Vec3, UVec3};
 use rand_core::Rng;
 use rand_pcg::Pcg32;
 
-/// Keys by bucket: those of bucket `b` are `keys[starts[b]..starts[b + 1]]`.
+/// Places of keys by bucket: those of bucket `b` are `places[starts[b]..starts[b + 1]]`.
 struct Buckets {
     starts: Vec<u32>,
-    keys: Vec<UVec3>,
+    places: Vec<UVec3>,
 }
 
-/// The offsets, `offset_side`^3, that put all keys on slots of their own in a table of `side`^3; `None` where there are none.
-pub(super) fn offsets(keys: &[UVec3], side: u32, offset_side: u32, seed: u64) -> Option<Vec<U8Vec3>> {
+/// The offsets, `offset_side`^3, that put all keys on slots of their own in a table of `side`^3; `None` where none were found.
+pub(super) fn offsets(keys: &[UVec3], side: u32, offset_side: u32, mut random: Pcg32) -> Option<Vec<U8Vec3>> {
     let buckets = Buckets::new(keys, side, offset_side);
-    let mut random = Pcg32::new(seed, u64::from(offset_side));
+    // Keys nearer to each other than both sides together tell apart differ by one of them.
+    let all_distinct = extent(keys) < u64::from(side) * u64::from(offset_side);
     let mut free = FreeSlots::new(side);
     let mut offsets: Vec<Option<U8Vec3>> = vec![None; buckets.count()];
     for bucket in buckets.largest_first() {
         let places = buckets.places(bucket);
-        if !distinct(places) {
+        if !(all_distinct || distinct(places)) {
             return None;
         }
         let around = neighbours(bucket, offset_side);
@@ -51,7 +52,7 @@ impl Buckets {
             places[next[bucket as usize] as usize] = *key % side;
             next[bucket as usize] += 1;
         }
-        Self { starts, keys: places }
+        Self { starts, places }
     }
 
     fn count(&self) -> usize {
@@ -63,7 +64,7 @@ impl Buckets {
     }
 
     fn places(&self, bucket: usize) -> &[UVec3] {
-        &self.keys[self.starts[bucket] as usize..self.starts[bucket + 1] as usize]
+        &self.places[self.starts[bucket] as usize..self.starts[bucket + 1] as usize]
     }
 
     /// Buckets with keys, the largest first and in order among those of a size.
@@ -72,6 +73,13 @@ impl Buckets {
         order.sort_by_key(|bucket| std::cmp::Reverse(self.len(*bucket)));
         order
     }
+}
+
+/// How far keys reach along an axis at most.
+fn extent(keys: &[UVec3]) -> u64 {
+    let low = keys.iter().copied().reduce(UVec3::min).unwrap_or_default();
+    let high = keys.iter().copied().reduce(UVec3::max).unwrap_or_default();
+    u64::from((high - low).max_element())
 }
 
 /// Whether no two places are the same: what agrees by both sides no offset parts.

@@ -9,8 +9,12 @@ const SPARE: f64 = 1.01;
 /// Keys per offset of the first attempt (Lefebvre and Hoppe section 4: 1/(2d) offsets a key in d dimensions).
 const KEYS_PER_OFFSET: f64 = 6.0;
 
-/// How many sizes of the table of offsets are tried.
-const ATTEMPTS: usize = 15;
+/// How much the side of the table of offsets grows from one attempt to the next, as its part of one. By half as much again at
+/// once, as Tegelaers has it, it comes out up to three times as large as it has to be, and its size depends on the seed.
+const GROWTH: u32 = 16;
+
+/// How many sizes of the table of offsets are tried: up to more than 20 times the first side.
+const ATTEMPTS: usize = 60;
 
 /// The least odd side of a table with `slack` slots for each of some keys.
 pub(super) fn slot_side(keys: usize, slack: f64) -> u32 {
@@ -22,7 +26,7 @@ pub(super) fn slot_side(keys: usize, slack: f64) -> u32 {
 pub(super) fn offset_sides(keys: usize, side: u32) -> impl Iterator<Item = u32> {
     let first = fitting(odd_side(keys as f64 / KEYS_PER_OFFSET), side);
     std::iter::successors(Some(first), move |last| {
-        (side > 1).then(|| fitting((last + last.div_ceil(2)) | 1, side))
+        (side > 1).then(|| fitting((last + last.div_ceil(GROWTH)) | 1, side))
     })
     .take(ATTEMPTS)
 }
