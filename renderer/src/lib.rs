@@ -39,6 +39,7 @@ pub mod material;
 pub mod measure;
 pub mod methods;
 mod nearest;
+pub mod octree;
 pub mod origin;
 pub mod output;
 pub mod pass;

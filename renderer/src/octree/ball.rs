@@ -1,0 +1,73 @@
+//! The ball of a light among the octree's cells: which cells it meets.
+//!
+//! Lengths are in deepest cells, so that the faces of all cells are whole numbers, without rounding. How far a cell lies
+//! from the centre grows, axis by axis, with the way from the centre's own cell, rounded or not. So a node has a cell
+//! that the ball meets where its nearest meets it, and has none that it does not meet where its farthest does: the
+//! answers for nodes are exactly those for their cells.
+
+use super::frame::OctreeFrame;
+use super::settings::Sphere;
+use glam::{DVec3, UVec3};
+
+/// How much of a node's deepest cells a light's ball meets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Coverage {
+    /// None of them.
+    None,
+    /// All of them.
+    All,
+    /// Some.
+    Some,
+}
+
+/// A ball in deepest cells from the octree's origin.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ball {
+    centre: DVec3,
+    reach: f64,
+    side: u32,
+}
+
+impl Ball {
+    /// The ball of a light, grown by what f64 rounds of places in the octree.
+    pub fn new(light: &Sphere, frame: &OctreeFrame) -> Self {
+        let slack = f64::from(frame.side()) * 2.0_f64.powi(-50);
+        let centre = frame.in_cells(light.centre);
+        Self { centre, reach: light.radius / frame.node + slack, side: frame.side() }
+    }
+
+    /// First and last deepest cell of the grid around the ball.
+    pub fn grid(&self) -> (UVec3, UVec3) {
+        let last = f64::from(self.side - 1);
+        let clamped = |at: DVec3| at.floor().clamp(DVec3::ZERO, DVec3::splat(last)).as_uvec3();
+        (clamped(self.centre - self.reach), clamped(self.centre + self.reach))
+    }
+
+    /// Whether the ball meets a deepest cell.
+    pub fn meets(&self, cell: UVec3) -> bool {
+        self.coverage(cell, 1) != Coverage::None
+    }
+
+    /// What the ball meets of the node whose lowest deepest cell is `low`, with `edge` of them along an axis.
+    pub fn coverage(&self, low: UVec3, edge: u32) -> Coverage {
+        let low = low.as_dvec3();
+        let high = low + f64::from(edge);
+        let far = distance(self.centre, low, low + 1.0).max(distance(self.centre, high - 1.0, high));
+        if self.reaches(far) {
+            Coverage::All
+        } else if self.reaches(distance(self.centre, low, high)) {
+            Coverage::Some
+        } else {
+            Coverage::None
+        }
+    }
+
+    fn reaches(&self, distance: DVec3) -> bool {
+        distance.length_squared() <= self.reach * self.reach
+    }
+}
+
+/// How far a point lies from a box, axis by axis.
+fn distance(point: DVec3, low: DVec3, high: DVec3) -> DVec3 {
+    (low - point).max(point - high).max(DVec3::ZERO)
+}

@@ -1,0 +1,121 @@
+//! From lights to the octree of the device.
+//!
+//! ```text
+//! lights ─ frame ─┬ octree of each light ── joined from the root down ──┬ merged ─ linkless
+//!                 └ grid of cells of each ─ sorted, up from the deepest ┘
+//! ```
+
+use super::ball::Ball;
+use super::frame::OctreeFrame;
+use super::light_grid::LightGrid;
+use super::light_tree::{BranchBudget, LightTree};
+use super::linkless::LinklessOctree;
+use super::settings::{OctreeError, OctreeSettings, Route, Sphere};
+use super::tree::Node;
+use super::{bottom_up, layers, top_down};
+use rayon::prelude::*;
+use std::time::Instant;
+
+/// Most branches of all light octrees together: what takes a gigabyte.
+const MOST_BRANCHES: usize = 1 << 27;
+
+/// Most cells of the grids of all lights together: what takes a gigabyte.
+const MOST_GRID_CELLS: u64 = 1 << 33;
+
+/// Most light indices that are made where sharing may make fewer of them.
+const MOST_UNSHARED: usize = 1 << 28;
+
+/// An octree and how long its steps took.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Built {
+    /// The octree.
+    pub octree: LinklessOctree,
+    /// How long each step took.
+    pub times: BuildTimes,
+}
+
+/// Seconds of each step of building an octree, in order.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BuildTimes {
+    /// Where the octree lies: the empty octree.
+    pub empty: f64,
+    /// The octree, or the grid of cells, of each light.
+    pub lights: f64,
+    /// Joining them to one octree.
+    pub adding: f64,
+    /// Merging nodes whose children are equal.
+    pub merging: f64,
+    /// Tables: collecting keys, perfect hashes, filling slots.
+    pub linkless: f64,
+}
+
+impl BuildTimes {
+    /// All steps together, seconds.
+    pub fn total(&self) -> f64 {
+        self.empty + self.lights + self.adding + self.merging + self.linkless
+    }
+}
+
+impl LinklessOctree {
+    /// The octree over lights. The same lights give the same bytes, on any number of cores.
+    ///
+    /// # Errors
+    /// A light or the node size is no length above 0, or the octree is deeper or larger than the limits allow.
+    pub fn build(lights: &[Sphere], settings: &OctreeSettings) -> Result<Built, OctreeError> {
+        let mut times = BuildTimes::default();
+        let frame = timed(&mut times.empty, || OctreeFrame::around(lights, settings))?;
+        let tree = scene_tree(lights, &frame, settings, &mut times)?;
+        let octree = timed(&mut times.linkless, || layers::tables(&tree, frame, settings))?;
+        Ok(Built { octree, times })
+    }
+}
+
+/// What `work` returns; its seconds are added to a step's.
+fn timed<T>(seconds: &mut f64, work: impl FnOnce() -> T) -> T {
+    let start = Instant::now();
+    let done = work();
+    *seconds += start.elapsed().as_secs_f64();
+    done
+}
+
+/// The octree over lights, merged.
+fn scene_tree(
+    lights: &[Sphere],
+    frame: &OctreeFrame,
+    settings: &OctreeSettings,
+    times: &mut BuildTimes,
+) -> Result<Node, OctreeError> {
+    let node = settings.node;
+    let most = if settings.share_runs { MOST_UNSHARED } else { settings.limits.indices };
+    let tree = match settings.route {
+        Route::TopDown => {
+            let trees = timed(&mut times.lights, || light_trees(lights, frame))?;
+            timed(&mut times.adding, || top_down::join(&trees, most))
+        }
+        Route::BottomUp => {
+            let grids = timed(&mut times.lights, || light_grids(lights, frame))?;
+            timed(&mut times.adding, || bottom_up::join(&grids, frame.depth, most))
+        }
+    };
+    let mut tree = tree.ok_or(OctreeError::TooManyIndices { node, most })?;
+    timed(&mut times.merging, || tree.merge());
+    Ok(tree)
+}
+
+/// The octree of each light.
+fn light_trees(lights: &[Sphere], frame: &OctreeFrame) -> Result<Vec<LightTree>, OctreeError> {
+    let budget = BranchBudget::new(MOST_BRANCHES);
+    let tree = |light| LightTree::new(&Ball::new(light, frame), frame.depth, &budget);
+    let trees: Option<Vec<LightTree>> = lights.par_iter().map(tree).collect();
+    trees.ok_or(OctreeError::LargeLights { node: frame.node, most: MOST_BRANCHES })
+}
+
+/// The grid of each light.
+fn light_grids(lights: &[Sphere], frame: &OctreeFrame) -> Result<Vec<LightGrid>, OctreeError> {
+    let balls: Vec<Ball> = lights.iter().map(|light| Ball::new(light, frame)).collect();
+    let cells = balls.iter().map(LightGrid::size).fold(0, u64::saturating_add);
+    if cells > MOST_GRID_CELLS {
+        return Err(OctreeError::LargeLights { node: frame.node, most: MOST_GRID_CELLS as usize });
+    }
+    Ok(balls.par_iter().map(LightGrid::new).collect())
+}
