@@ -2,11 +2,12 @@
 //!
 //! ```text
 //! lights ─ frame ─┬ octree of each light ── joined from the root down ──┬ merged ─ linkless
-//!                 └ grid of cells of each ─ sorted, up from the deepest ┘
+//!                 └ grid of cells of each ─ sorted, up from the deepest ┘   └ where geometry is ┘
 //! ```
 
 use super::ball::Ball;
 use super::frame::OctreeFrame;
+use super::geometry::OctreeGeometry;
 use super::light_grid::LightGrid;
 use super::light_tree::{BranchBudget, LightTree};
 use super::linkless::LinklessOctree;
@@ -43,7 +44,7 @@ pub struct BuildTimes {
     pub lights: f64,
     /// Joining them to one octree.
     pub adding: f64,
-    /// Merging nodes whose children are equal.
+    /// Merging nodes whose children are equal, and leaving out those without geometry.
     pub merging: f64,
     /// Tables: collecting keys, perfect hashes, filling slots.
     pub linkless: f64,
@@ -62,12 +63,36 @@ impl LinklessOctree {
     /// # Errors
     /// A light or the node size is no length above 0, or the octree is deeper or larger than the limits allow.
     pub fn build(lights: &[Sphere], settings: &OctreeSettings) -> Result<Built, OctreeError> {
-        let mut times = BuildTimes::default();
-        let frame = timed(&mut times.empty, || OctreeFrame::around(lights, settings))?;
-        let tree = scene_tree(lights, &frame, settings, &mut times)?;
-        let octree = timed(&mut times.linkless, || layers::tables(&tree, frame, settings))?;
-        Ok(Built { octree, times })
+        build(lights, None, settings)
     }
+
+    /// The octree over lights as [`Self::build`] makes it, but only where there is geometry: it says the same there, and
+    /// anything elsewhere.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn build_for(
+        lights: &[Sphere],
+        geometry: &OctreeGeometry,
+        settings: &OctreeSettings,
+    ) -> Result<Built, OctreeError> {
+        build(lights, Some(geometry), settings)
+    }
+}
+
+fn build(
+    lights: &[Sphere],
+    geometry: Option<&OctreeGeometry>,
+    settings: &OctreeSettings,
+) -> Result<Built, OctreeError> {
+    let mut times = BuildTimes::default();
+    let frame = timed(&mut times.empty, || OctreeFrame::around(lights, settings))?;
+    let mut tree = scene_tree(lights, &frame, settings, &mut times)?;
+    if let Some(geometry) = geometry {
+        tree = timed(&mut times.merging, || geometry.trim(&tree, &frame));
+    }
+    let octree = timed(&mut times.linkless, || layers::tables(&tree, frame, settings))?;
+    Ok(Built { octree, times })
 }
 
 /// What `work` returns; its seconds are added to a step's.

@@ -115,8 +115,21 @@ pub(super) fn kind(node: &Node) -> Child {
     }
 }
 
-/// The perfect hashes of one layer.
-pub(super) type Hashes = (PerfectHash, Option<PerfectHash>);
+/// A table's keys and what is stored for them, with their perfect hash.
+pub(super) struct Stored<T> {
+    /// Where keys lie.
+    pub hash: PerfectHash,
+    /// What is stored.
+    pub entries: Entries<T>,
+}
+
+/// The tables of one layer.
+pub(super) struct StoredLayer {
+    /// Branches.
+    pub structure: Stored<u16>,
+    /// Leaves with lights, where there are some.
+    pub data: Option<Stored<[u32; 2]>>,
+}
 
 /// The tables of a tree.
 ///
@@ -127,61 +140,63 @@ pub(super) fn tables(
     frame: OctreeFrame,
     settings: &OctreeSettings,
 ) -> Result<LinklessOctree, OctreeError> {
-    let collected = Collected::of(tree, &frame, settings.share_runs);
+    let (layers, indices) = stored(tree, &frame, settings)?;
+    assemble(frame, &layers, indices, settings)
+}
+
+/// What the tables of a tree hold, layer by layer, and the light indices.
+///
+/// # Errors
+/// There is no room for the indices or a table, or no perfect hash was found.
+pub(super) fn stored(
+    tree: &Node,
+    frame: &OctreeFrame,
+    settings: &OctreeSettings,
+) -> Result<(Vec<StoredLayer>, Vec<u32>), OctreeError> {
+    let Collected { structure, data, indices } = Collected::of(tree, frame, settings.share_runs);
     let most = settings.limits.indices;
-    if collected.indices.len() > most {
+    if indices.len() > most {
         return Err(OctreeError::TooManyIndices { node: settings.node, most });
     }
-    let hashes = hashes(&collected, &frame, settings)?;
-    let mut octree = LinklessOctree {
-        frame,
-        layers: Vec::with_capacity(hashes.len()),
-        structure: Vec::new(),
-        leaves: Vec::new(),
-        offsets: Vec::new(),
-        indices: collected.indices,
-    };
-    for ((structure, data), (branches, leaves)) in
-        hashes.iter().zip(collected.structure.iter().zip(&collected.data))
-    {
-        let structure = append(&mut octree.structure, &mut octree.offsets, structure, branches);
-        let data = data.as_ref().map(|hash| append(&mut octree.leaves, &mut octree.offsets, hash, leaves));
-        octree.layers.push(Layer { structure, data });
-    }
+    let layers: Vec<_> = structure.into_iter().zip(data).zip(frame.start_depth..).collect();
+    let made = layers.into_par_iter().with_max_len(1).map(|((branches, leaves), depth)| {
+        let hash = |keys, depth| perfect_hash(keys, depth, settings);
+        let (structure, data) = rayon::join(|| hash(&branches.keys, depth), || hash(&leaves.keys, depth + 1));
+        let structure = Stored { hash: structure?, entries: branches };
+        let data = Stored { hash: data?, entries: leaves };
+        Ok(StoredLayer { structure, data: (!data.entries.keys.is_empty()).then_some(data) })
+    });
+    // The first layer's error, whichever was met first.
+    let made: Vec<Result<StoredLayer, OctreeError>> = made.collect();
+    let layers = made.into_iter().collect::<Result<_, _>>()?;
+    Ok((layers, indices))
+}
+
+/// All tables one behind the other.
+///
+/// # Errors
+/// There is no room for them.
+pub(super) fn assemble(
+    frame: OctreeFrame,
+    layers: &[StoredLayer],
+    indices: Vec<u32>,
+    settings: &OctreeSettings,
+) -> Result<LinklessOctree, OctreeError> {
+    let (mut structure, mut leaves, mut offsets) = (Vec::new(), Vec::new(), Vec::new());
+    let layers = layers.iter().map(|layer| Layer {
+        structure: append(&mut structure, &mut offsets, &layer.structure),
+        data: layer.data.as_ref().map(|data| append(&mut leaves, &mut offsets, data)),
+    });
+    let octree = LinklessOctree { layers: layers.collect(), frame, structure, leaves, offsets, indices };
     let slots = octree.structure.len().max(octree.leaves.len()).max(octree.offsets.len());
     let most = settings.limits.slots;
     if slots > most {
-        Err(OctreeError::TooManySlots { node: settings.node, slots, most })
-    } else {
-        Ok(octree)
+        return Err(OctreeError::TooManySlots { node: settings.node, slots, most });
     }
+    Ok(octree)
 }
 
-/// The perfect hashes of all layers, each made on a core of its own.
-fn hashes(
-    collected: &Collected,
-    frame: &OctreeFrame,
-    settings: &OctreeSettings,
-) -> Result<Vec<Hashes>, OctreeError> {
-    let structure = collected.structure.iter().map(|entries| &entries.keys);
-    let data = collected.data.iter().map(|entries| &entries.keys);
-    let depths = frame.start_depth..frame.depth;
-    let wanted: Vec<(u32, &Vec<UVec3>)> =
-        structure.zip(depths.clone()).map(|(keys, depth)| (depth, keys)).collect();
-    let deeper = data.zip(depths).map(|(keys, depth)| (depth + 1, keys));
-    // The deepest first: they take longest.
-    let wanted: Vec<(u32, &Vec<UVec3>)> = wanted.into_iter().chain(deeper).rev().collect();
-    let made: Vec<Option<PerfectHash>> = wanted
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|(depth, keys)| perfect_hash(keys, depth, settings))
-        .collect::<Result<_, _>>()?;
-    let mut made = made.into_iter().rev();
-    let structure: Vec<PerfectHash> = made.by_ref().take(collected.structure.len()).flatten().collect();
-    Ok(structure.into_iter().zip(made).collect())
-}
-
-/// The perfect hash of the keys of a table; `None` without keys.
+/// The perfect hash of the keys of a table; of none, that of a single slot.
 ///
 /// # Errors
 /// There is no room for it, or none was found.
@@ -189,13 +204,10 @@ pub(super) fn perfect_hash(
     keys: &[UVec3],
     depth: u32,
     settings: &OctreeSettings,
-) -> Result<Option<PerfectHash>, OctreeError> {
-    if keys.is_empty() {
-        return Ok(None);
-    }
+) -> Result<PerfectHash, OctreeError> {
     let most = settings.limits.slots;
     let how = HashSettings { seed: settings.seed, slack: settings.slack, most_slots: most };
-    PerfectHash::build(keys, &how).map(Some).map_err(|error| match error {
+    PerfectHash::build(keys, &how).map_err(|error| match error {
         HashError::TooLarge(slots) => OctreeError::TooManySlots { node: settings.node, slots, most },
         HashError::NotFound => OctreeError::NoHash { node: settings.node, depth, keys: keys.len() },
     })
@@ -205,8 +217,7 @@ pub(super) fn perfect_hash(
 fn append<T: Copy + Default>(
     slots: &mut Vec<T>,
     offsets: &mut Vec<[u8; 4]>,
-    hash: &PerfectHash,
-    entries: &Entries<T>,
+    Stored { hash, entries }: &Stored<T>,
 ) -> HashTable {
     let table = HashTable {
         slots: slots.len() as u32,

@@ -16,6 +16,7 @@ mod ball;
 mod bottom_up;
 mod build;
 mod frame;
+mod geometry;
 mod layers;
 mod light_grid;
 mod light_tree;
@@ -28,6 +29,7 @@ mod tree;
 
 pub use build::{BuildTimes, Built};
 pub use frame::{MOST_DEPTH, OctreeFrame};
+pub use geometry::OctreeGeometry;
 pub use linkless::{HashTable, Layer, LinklessOctree};
 pub use memory::{LayerMemory, TableMemory};
 pub use settings::{OctreeError, OctreeLimits, OctreeSettings, Route, Sphere};

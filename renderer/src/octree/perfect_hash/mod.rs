@@ -54,8 +54,8 @@ pub enum HashError {
 }
 
 impl PerfectHash {
-    /// The hash of distinct keys, of which there is at least one: as small a table as the settings allow, and the first of
-    /// growing tables of offsets that does.
+    /// The hash of distinct keys: as small a table as the settings allow, and the first of growing tables of offsets that does.
+    /// That of no keys has one slot.
     ///
     /// # Errors
     /// The table is larger than the settings allow, or no offsets separate the keys.

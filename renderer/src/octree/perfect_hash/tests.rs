@@ -47,6 +47,12 @@ fn a_full_cube_is_stored_in_one_of_its_size() {
 }
 
 #[test]
+fn no_keys_take_one_slot() {
+    let hash = PerfectHash::build(&[], &SETTINGS).unwrap();
+    assert_eq!((hash.side, hash.offset_side, hash.slot(UVec3::new(7, 8, 9))), (1, 1, 0));
+}
+
+#[test]
 fn keys_that_agree_by_both_sides_get_more_offsets() {
     // Two keys make a table of 3^3 slots with one offset, by which they are the same.
     let keys = [UVec3::ZERO, UVec3::new(3, 0, 0)];
