@@ -29,6 +29,9 @@
 //! that may meet a visible cluster into `candidates` (cull_lights: `block_bits`, `light_bits`); then the hierarchy makes
 //! `sort_items`, `digit_counts`, `tree_volumes`, `tree_lights` and `light_nodes`, scatter `groups`, `packet_groups` and
 //! `group_lights`.
+//!
+//! Where lights are found by an octree, the host builds `octree` with its tables, and shading alone reads them: `octree_nodes` from
+//! depth to depth, the last time `octree_leaves`, each by way of `octree_offsets`, and `octree_indices`.
 
 mod info;
 mod memory;
@@ -42,9 +45,10 @@ pub use sizes::ClusteringSizes;
 
 use crate::gpu_interface::{
     BLOCK_WORDS, COUNTER_COUNT, Candidate, ClusterBox, ClusterGroup, ClusteringState, DISPATCH_COUNT,
-    DispatchSize, GridData, InstanceData, LightData, LightNode, LightVolume, MEASUREMENT_WORDS, PixelData,
+    DispatchSize, GridData, InstanceData, LightData, LightNode, LightVolume, MEASUREMENT_WORDS, OctreeData,
+    PixelData,
 };
-use crate::measure::Purpose;
+use crate::measure::{OctreeSizes, Purpose};
 use info::{buffer, bytes};
 
 /// Declares the names and what they name.
@@ -148,10 +152,10 @@ buffers! {
     Counters = buffer("counters", Owner::Clustering)
         .storage("uint counters[]")
         .sized(|s| s.counted(bytes::<u64>(COUNTER_COUNT as u64)));
-    /// Fragments of each visible cluster, in atemporal runs.
+    /// Fragments of each visible cluster, or of each slot for leaves of an octree, in atemporal runs.
     VisibleFragments = buffer("visible_fragments", Owner::Clustering)
         .storage("uint visible_fragments[]")
-        .sized(|s| s.counted(bytes::<u32>(s.visible())));
+        .sized(|s| s.counted(bytes::<u32>(s.visible() + u64::from(s.capacities.octree.leaves))));
     /// Fragments by how many lights were evaluated for them, in atemporal runs.
     LightsPerFragment = buffer("lights_per_fragment", Owner::Clustering)
         .storage("uint lights_per_fragment[]")
@@ -236,6 +240,32 @@ buffers! {
     DrawCommands = buffer("draw_commands", Owner::Session).storage("DrawCommand draw_commands[]");
     /// The instances that those draw.
     DrawnInstances = buffer("drawn_instances", Owner::Session).storage("uint drawn_instances[]");
+    /// Where an octree over the lights lies, and its tables.
+    Octree = buffer("octree", Owner::ClusteringFrame)
+        .uniform("OctreeData octree")
+        .sized(|s| bytes::<OctreeData>(s.has_octree.into()))
+        .serving(Purpose::Grouping);
+    /// Branches of an octree: of each child x + 2 y + 4 z, in bit 0 and up whether it is a leaf, in bit 8 and up whether it is
+    /// filled.
+    OctreeNodes = buffer("octree_nodes", Owner::Clustering)
+        .texels("octree_node", Element::Half)
+        .sized(|s| OctreeSizes::NODE_BYTES * u64::from(s.capacities.octree.nodes))
+        .serving(Purpose::Grouping);
+    /// Offsets of the hashes of an octree, x, y, z.
+    OctreeOffsets = buffer("octree_offsets", Owner::Clustering)
+        .texels("octree_offset", Element::Bytes)
+        .sized(|s| OctreeSizes::OFFSET_BYTES * u64::from(s.capacities.octree.offsets))
+        .serving(Purpose::Grouping);
+    /// Filled leaves of an octree: where the list of each begins, and its length.
+    OctreeLeaves = buffer("octree_leaves", Owner::Clustering)
+        .texels("octree_leaf", Element::Pair)
+        .sized(|s| OctreeSizes::LEAF_BYTES * u64::from(s.capacities.octree.leaves))
+        .serving(Purpose::Lists);
+    /// The lights of the leaves of an octree.
+    OctreeIndices = buffer("octree_indices", Owner::Clustering)
+        .texels("octree_index", Element::Word)
+        .sized(|s| OctreeSizes::INDEX_BYTES * u64::from(s.capacities.octree.indices))
+        .serving(Purpose::Lists);
 }
 
 impl BufferName {

@@ -5,7 +5,8 @@ mod structs;
 
 pub use structs::{
     Candidate, ClusterBox, ClusterGroup, ClusteringState, DispatchSize, DrawCommand, DrawCounts, GridData,
-    InstanceData, LightData, LightNode, LightVolume, MaterialData, ModelBox, PixelData, Push, ViewData,
+    HashData, InstanceData, LightData, LightNode, LightVolume, MaterialData, ModelBox, OctreeData,
+    OctreeLayer, PixelData, Push, ViewData,
 };
 
 use crate::geometry::VolumeKind;
@@ -133,9 +134,12 @@ const TEXTURE_SLOTS: [(&str, TextureSlot); 5] = [
 ];
 
 /// Every shared struct; one comes after those it contains.
-const STRUCTS: [StructInfo; 17] = [
+const STRUCTS: [StructInfo; 20] = [
     ViewData::INFO,
     GridData::INFO,
+    HashData::INFO,
+    OctreeLayer::INFO,
+    OctreeData::INFO,
     ClusterBox::INFO,
     LightNode::INFO,
     LightVolume::INFO,

@@ -21,6 +21,7 @@ use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
 use crate::geometry::views::ViewSet;
 use crate::layouts::{Layouts, Pipeline, PipelineLayout};
+use crate::methods::Groups;
 use crate::shading::Shading;
 use crate::texture_sets::TextureSet;
 use crate::vk::{self as gpu, Context, ShaderLibrary};
@@ -89,6 +90,7 @@ pub struct Pipelines {
     /// The model of each pixel, of opaque and of masked surfaces, where groups are models and all is counted.
     pub pixel_models: Option<[Arc<Pipeline>; 2]>,
     clustered: Option<ClusteredPipelines>,
+    count_fragments: Option<VisitPipelines>,
     bounds: Option<VisitPipelines>,
     build_boxes: Option<Arc<Pipeline>>,
     accelerated: Option<AcceleratedPipelines>,
@@ -109,6 +111,13 @@ impl Pipelines {
     /// The clustered methods' pipelines; only their passes ask.
     pub fn clustered(&self) -> &ClusteredPipelines {
         self.clustered.as_ref().expect("a pass of clustered methods runs in a clustered method")
+    }
+
+    /// Counts the fragments of groups with lists; only its pass asks.
+    pub fn count_fragments(&self) -> &VisitPipelines {
+        self.count_fragments
+            .as_ref()
+            .expect("fragments of groups are counted where all is counted, and groups have lists")
     }
 
     /// Measures the bounds of visible clusters; only its pass asks.
@@ -181,7 +190,9 @@ impl PipelineStore {
     /// All pipelines of a variant.
     pub fn pipelines(&mut self, variant: &Variant) -> Result<Pipelines> {
         self.asked.clear();
-        let clustered = variant.cells.map(|_| self.clustered(variant)).transpose()?;
+        let clustered = variant.cells().map(|_| self.clustered(variant)).transpose()?;
+        let counts_groups = variant.counting && variant.groups != Groups::Nothing;
+        let count_fragments = counts_groups.then(|| self.visit(variant, Visit::Count)).transpose()?;
         let bounds = match variant.bounds {
             ClusterBounds::Cell => None,
             ClusterBounds::Depth | ClusterBounds::Box => Some(self.visit(variant, Visit::Bounds)?),
@@ -212,6 +223,7 @@ impl PipelineStore {
             depth_steps: self.depth_steps(variant)?,
             pixel_models: self.pixel_models(variant)?,
             clustered,
+            count_fragments,
             bounds,
             build_boxes,
             accelerated,

@@ -9,7 +9,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-uint cluster_at(ViewData view, vec2 location, float depth)
+uint group_at(ViewData view, vec2 location, float depth)
 {
 #if WORLD_LOOKUP
     return group_seen(view, location, depth);
@@ -26,16 +26,15 @@ void main()
         return;
     float depth = stored_depth(ivec2(pixel), 0);
     vec2 location = vec2(pixel) + sample_position(0);
-    PixelData result = PixelData(uintBitsToFloat(0x7F800000u), 0u, 0u, NO_CLUSTER);
+    PixelData result = PixelData(uintBitsToFloat(0x7F800000u), 0u, 0u, NO_GROUP);
     if (depth > 0.0) {
         result.distance = -view_position(view, location, depth).z;
-        uint cluster = cluster_at(view, location, depth);
-        uint visible = cluster == NO_CLUSTER ? NO_CLUSTER : visible_index(cluster);
-        if (visible != NO_CLUSTER) {
-            LightCursor cursor = list_of_visible(visible);
+        uint group = group_at(view, location, depth);
+        LightCursor cursor;
+        if (group != NO_GROUP && list_of_group(group, cursor)) {
             result.light_count = cursor.end - cursor.next;
-            result.fragment_count = visible_fragments[visible];
-            result.cluster_index = cluster;
+            result.fragment_count = fragments_of_group(group);
+            result.cluster_index = group;
         }
     }
     pixels[pixel.y * view.resolution.x + pixel.x] = result;

@@ -27,15 +27,21 @@ const uint NO_GROUP = NO_CLUSTER;
 // The group of a sample, by its index.
 uint group_of_sample(ViewData view, vec2 pixel, float depth);
 
-// The lights of a sample; false where the sample's group is missing.
-bool find_lights(ViewData view, vec2 pixel, float depth, out LightCursor cursor)
+// The list of a group; false where the group is missing.
+bool list_of_group(uint group, out LightCursor cursor)
 {
-    uint visible = visible_index(group_of_sample(view, pixel, depth));
+    uint visible = visible_index(group);
     cursor = LightCursor(0u, 0u);
     if (visible == NO_CLUSTER)
         return false;
     cursor = list_of_visible(visible);
     return true;
+}
+
+// The lights of a sample; false where the sample's group is missing.
+bool find_lights(ViewData view, vec2 pixel, float depth, out LightCursor cursor)
+{
+    return list_of_group(group_of_sample(view, pixel, depth), cursor);
 }
 
 uint light_at(uint position)

@@ -2,11 +2,27 @@
 // fragment (VISIT_COUNT), or let the cluster's bounds hold it (VISIT_BOUNDS).
 #pragma once
 
+#if LEAVES
+#include "lookup/$LOOKUP.glsl"
+#else
 #include "lib/cluster_space.glsl"
 #include "lib/visible.glsl"
 #if VISIT == VISIT_BOUNDS
 #include "lib/measured_bounds.glsl"
 #endif
+#endif
+
+#if LEAVES
+
+// Leaves of an octree are there whatever is seen, so that there is nothing but to count.
+void visit_sample(ViewData view, vec2 pixel, float depth)
+{
+    uint leaf = group_of_sample(view, pixel, depth);
+    if (leaf != NO_GROUP)
+        atomicAdd(visible_fragments[leaf], 1u);
+}
+
+#else
 
 // Visits a cluster that holds a position, in the clustering camera's space.
 void visit_cluster(uint cluster, vec3 position)
@@ -30,3 +46,5 @@ void visit_sample(ViewData view, vec2 pixel, float depth)
     vec3 position = clustering_position(view, pixel, depth);
     visit_cluster(linear_cluster(cell_of_position(position)), position);
 }
+
+#endif

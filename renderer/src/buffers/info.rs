@@ -58,6 +58,12 @@ impl BufferView {
 pub enum Element {
     /// A `uint`.
     Word,
+    /// A `uint` of 16 bits.
+    Half,
+    /// Four `uint`s of 8 bits: a `uvec4`.
+    Bytes,
+    /// Two `uint`s: a `uvec2`.
+    Pair,
     /// A struct that fills its texels of four words.
     Struct(StructInfo),
 }
@@ -76,6 +82,9 @@ impl Texels {
     pub fn format(&self) -> vk::Format {
         match &self.element {
             Element::Word => vk::Format::R32_UINT,
+            Element::Half => vk::Format::R16_UINT,
+            Element::Bytes => vk::Format::R8G8B8A8_UINT,
+            Element::Pair => vk::Format::R32G32_UINT,
             Element::Struct(info) if !info.is_float() => vk::Format::R32G32B32A32_UINT,
             Element::Struct(_) => vk::Format::R32G32B32A32_SFLOAT,
         }
@@ -84,12 +93,13 @@ impl Texels {
     /// The function that reads an element.
     fn reader(&self) -> String {
         let (name, view) = (format!("read_{}", self.stem), format!("{}_texels", self.stem));
-        match &self.element {
-            Element::Word => {
-                format!("uint {name}(uint index) {{ return texelFetch({view}, int(index)).x; }}\n")
-            }
-            Element::Struct(info) => info.reader(&name, &view),
-        }
+        let (kind, parts) = match &self.element {
+            Element::Word | Element::Half => ("uint", "x"),
+            Element::Bytes => ("uvec4", "xyzw"),
+            Element::Pair => ("uvec2", "xy"),
+            Element::Struct(info) => return info.reader(&name, &view),
+        };
+        format!("{kind} {name}(uint index) {{ return texelFetch({view}, int(index)).{parts}; }}\n")
     }
 }
 

@@ -4,7 +4,7 @@
 //! light indices.
 
 use super::{BufferInfo, BufferName, ClusteringSizes, Owner};
-use crate::measure::{Capacities, ClusteringCounts, StructureMemory};
+use crate::measure::{Capacities, ClusteringCounts, OctreeSizes, StructureMemory};
 
 /// How many buffers of a name there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,6 +68,7 @@ impl ClusteringSizes {
             capacities: Capacities {
                 visible_clusters: entries(counts.visible_clusters),
                 light_indices: entries(counts.light_indices),
+                octree: counts.octree.as_ref().map_or_else(OctreeSizes::default, |octree| octree.sizes),
                 ..self.capacities
             },
             ..*self
@@ -81,6 +82,8 @@ mod tests {
     use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction, ListStore};
     use crate::measure::Purpose;
 
+    const NO_OCTREE: OctreeSizes = OctreeSizes { nodes: 0, leaves: 0, offsets: 0, indices: 0 };
+
     const SIZES: ClusteringSizes = ClusteringSizes {
         clusters: 4096,
         listed: Clusters::Visible,
@@ -90,8 +93,14 @@ mod tests {
         lists: ListStore::Offsets,
         slice_planes: 17,
         lights: 100,
-        capacities: Capacities { visible_clusters: 1000, light_indices: 5000, list_entries: 0 },
+        capacities: Capacities {
+            visible_clusters: 1000,
+            light_indices: 5000,
+            list_entries: 0,
+            octree: NO_OCTREE,
+        },
         assigner: Assigner::Brute,
+        has_octree: false,
         counting: true,
         pixels: 64,
     };

@@ -3,7 +3,7 @@
 use super::{BufferInfo, BufferName, Owner};
 use crate::assign::{self, Assigner, ClusterBounds, Clusters, Compaction, ListStore, light_blocks};
 use crate::gpu_interface::{ASSIGN_WORKGROUP, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS};
-use crate::measure::Capacities;
+use crate::measure::{Capacities, OctreeSizes};
 use crate::vk::{Limits, texel_bytes};
 use crate::{Error, Result};
 
@@ -30,6 +30,8 @@ pub struct ClusteringSizes {
     pub capacities: Capacities,
     /// How the lists are built.
     pub assigner: Assigner,
+    /// Whether lights are found by an octree.
+    pub has_octree: bool,
     /// Whether the atemporal run's buffers are there.
     pub counting: bool,
     /// Pixels of a view.
@@ -203,6 +205,7 @@ impl ClusteringSizes {
             visible_clusters: entries((words - 1).min(groups * u64::from(ASSIGN_WORKGROUP))),
             light_indices: entries(indices),
             list_entries: entries(indices / self.lists_there().max(1)),
+            octree: OctreeSizes::all(entries(indices)),
         }
     }
 
@@ -271,7 +274,8 @@ mod tests {
 
     /// What 10 000 lights need among 2^20 clusters.
     fn sizes() -> ClusteringSizes {
-        let capacities = Capacities { visible_clusters: 1000, light_indices: 1 << 20, list_entries: 0 };
+        let capacities =
+            Capacities { visible_clusters: 1000, light_indices: 1 << 20, ..Capacities::default() };
         let assigner = Assigner::Scatter;
         ClusteringSizes {
             clusters: 1 << 20,
@@ -284,6 +288,7 @@ mod tests {
             lights: 10_000,
             capacities,
             assigner,
+            has_octree: false,
             counting: true,
             pixels: 64,
         }
@@ -374,7 +379,7 @@ mod tests {
     }
 
     fn few_indices() -> Capacities {
-        Capacities { visible_clusters: 2, light_indices: 1000, list_entries: 0 }
+        Capacities { visible_clusters: 2, light_indices: 1000, ..Capacities::default() }
     }
 
     #[test]

@@ -29,7 +29,7 @@ pub trait Own: Copy {
 
     /// Whether `method` asks for it at all.
     fn applies(method: &Method) -> bool {
-        method.has_lists()
+        method.assigns()
     }
 }
 
@@ -37,7 +37,7 @@ impl Own for SphereTest {
     /// The thesis's own: half spaces in perspective grids, the box in orthographic ones; that of models is exact, and cells that
     /// can be tested as boxes are.
     fn own(method: &Method) -> Self {
-        match method.kind().cells {
+        match method.kind().cells() {
             Some(CellShape::Model) => Self::Exact,
             Some(CellShape::Box | CellShape::BoxedFrustum) => Self::Box,
             Some(CellShape::Frustum) | None => Self::HALF_SPACES,
@@ -51,7 +51,7 @@ impl Own for Clusters {
     }
 
     fn applies(method: &Method) -> bool {
-        method.has_lists() && !method.is_apart_from_views()
+        method.assigns() && !method.is_apart_from_views()
     }
 }
 
@@ -61,7 +61,7 @@ impl Own for Bounds {
     }
 
     fn applies(method: &Method) -> bool {
-        method.has_lists() && !method.is_apart_from_views()
+        method.assigns() && !method.is_apart_from_views()
     }
 }
 
@@ -98,12 +98,12 @@ impl<T> From<T> for Choice<T> {
 
 /// Whether the method's clusters are axis-aligned boxes, or can be tested as such.
 fn has_boxes(method: &Method) -> bool {
-    matches!(method.kind().cells, Some(CellShape::Box | CellShape::BoxedFrustum))
+    matches!(method.kind().cells(), Some(CellShape::Box | CellShape::BoxedFrustum))
 }
 
 /// Whether the method's groups are models.
 fn has_models(method: &Method) -> bool {
-    method.kind().cells == Some(CellShape::Model)
+    method.kind().cells() == Some(CellShape::Model)
 }
 
 impl Config {
@@ -138,8 +138,8 @@ impl Config {
     }
 
     fn check_lists(&self) -> Result<(), String> {
-        let brute = self.assign.first() == Some(&Assign::Brute)
-            && self.methods.first().is_some_and(Method::has_lists);
+        let brute =
+            self.assign.first() == Some(&Assign::Brute) && self.methods.first().is_some_and(Method::assigns);
         match (self.lists.first(), self.lights_of_run().lighting()) {
             (Some(&lists), Some(lighting)) if brute => check_one_pass(lists, lighting.count),
             _ => Ok(()),

@@ -196,7 +196,7 @@ impl Config {
         Capacities {
             visible_clusters: self.visible_cluster_capacity,
             light_indices: self.light_index_capacity,
-            list_entries: 0,
+            ..Capacities::default()
         }
     }
 

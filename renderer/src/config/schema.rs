@@ -4,7 +4,7 @@ use super::values::MAX_RESOLUTION;
 use super::{Assign, Choice, Config, Layer};
 use crate::assign::{Bounds, Clusters, Compaction};
 use crate::lights::Attenuation;
-use crate::methods::{KINDS, Kind};
+use crate::methods::{KINDS, Kind, Size};
 use crate::shading::Shading;
 use clap::ValueEnum;
 use schemars::{Schema, SchemaGenerator, json_schema};
@@ -29,7 +29,8 @@ pub fn json_schema() -> Value {
 }
 
 pub(super) fn methods(_: &mut SchemaGenerator) -> Schema {
-    let pattern = |kind: &Kind| format!("{}{}", kind.name, "-[0-9.]+".repeat(kind.sizes.len()));
+    let sizes = |kind: &Kind| kind.sizes.iter().map(|name| Size::expression(name)).collect::<String>();
+    let pattern = |kind: &Kind| format!("{}{}", kind.name, sizes(kind));
     let patterns: Vec<String> = KINDS.iter().map(pattern).collect();
     let tuned: Vec<String> = KINDS.iter().map(|kind| kind.tuned().to_string()).collect();
     json_schema!({

@@ -91,17 +91,17 @@ fn read_counts(
     lists: &mut dyn FnMut(ClusterLists) -> Result<()>,
 ) -> Result<FrameCounts> {
     let states = engine.states(session, COUNTING_SLOT);
-    let clustered = engine.method().has_lists();
+    let (has_lists, assigns) = (engine.method().has_lists(), engine.method().assigns());
     let views = plan.views.len() as u32;
     let mut counts = FrameCounts { frame: plan.frame, time_s, views, ..Default::default() };
     for (c, state) in states.into_iter().enumerate() {
-        let state = if clustered { state } else { ClusteringState::default() };
+        let state = if assigns { state } else { ClusteringState::default() };
         let read = Counted::read(engine, session, (COUNTING_SLOT, plan.frame, c), (state, lights))?;
         read.check(lights)?;
         counts.counters.add(&read.counters);
         counts.lights_per_fragment.push(read.lights_per_fragment());
-        if clustered {
-            let capacity = engine.capacities().light_indices;
+        if has_lists {
+            let capacity = if assigns { engine.capacities().light_indices } else { u32::MAX };
             counts.clusterings.push(read.clustering(engine.dimensions(c), capacity));
             lists(read.lists)?;
         }

@@ -3,8 +3,9 @@
 use super::Engine;
 use super::kept::KeptLists;
 use super::session::Session;
+use crate::buffers::ClusteringSizes;
 use crate::gpu_interface::ClusteringState;
-use crate::measure::{ClusterLists, ClusterRecord, ClusteringCounts, DeviceCounts};
+use crate::measure::{ClusterLists, ClusterRecord, ClusteringCounts, DeviceCounts, OctreeCounts};
 use crate::passes::readback;
 use crate::vk::{Buffer, Memory};
 use crate::{Error, Result};
@@ -22,37 +23,68 @@ pub struct Counted {
     pub lists: ClusterLists,
     /// How many lights the lists should have.
     light_indices: u64,
+    /// The octree whose leaves have the lists.
+    octree: Option<OctreeCounts>,
+}
+
+/// Reads words of so many buffers of a clustering of the frame that ended in a slot.
+fn read_words<const N: usize>(
+    engine: &mut Engine,
+    session: &mut Session,
+    (slot, clustering): (usize, usize),
+    sources: [readback::Source; N],
+) -> Result<[Vec<u32>; N]> {
+    let size = 4 * sources.iter().map(|(_, words)| words).sum::<u64>();
+    let usage = vk::BufferUsageFlags::TRANSFER_DST;
+    let target = Buffer::new(&session.context, "counter readback", size, usage, Memory::Readback)?;
+    engine.follow_up(session, slot, |r, frame| {
+        readback::copy_counted(r, frame, clustering, &sources, &target);
+    })?;
+    let mut offset = 0;
+    Ok(sources.map(|(_, words)| {
+        let data = target.read(offset, words as usize);
+        offset += 4 * words;
+        data
+    }))
 }
 
 impl Counted {
     /// Reads what the frame that ended in `slot` counted with `lights` lights; `state` is that of the clustering, zero
-    /// for a method without clusters.
+    /// for a method whose lists the device does not build.
     pub fn read(
         engine: &mut Engine,
         session: &mut Session,
         (slot, frame, clustering): (usize, u32, usize),
         (state, lights): (ClusteringState, u32),
     ) -> Result<Self> {
-        let words = readback::counted_words(KeptLists::words(&engine.sizes, &state), lights);
-        let size = 4 * words.iter().sum::<u64>();
-        let usage = vk::BufferUsageFlags::TRANSFER_DST;
-        let target = Buffer::new(&session.context, "counter readback", size, usage, Memory::Readback)?;
-        engine.follow_up(session, slot, |r, frame| {
-            readback::copy_counted(r, frame, clustering, &words, &target);
-        })?;
-        let mut offset = 0;
-        let [counters, lights_per_fragment, clusters, fragments, offsets, lengths, indices] =
-            words.map(|words| {
-                let data: Vec<u32> = target.read(offset, words as usize);
-                offset += 4 * words;
-                data
-            });
-        let (sizes, lengths) = (&engine.sizes, &lengths);
+        let at = (slot, clustering);
+        match engine.octree_counts() {
+            Some(octree) => {
+                let words = read_words(engine, session, at, readback::of_leaves(&octree.sizes, lights))?;
+                Ok(Self::of_leaves(words, octree, (frame, clustering)))
+            }
+            None => {
+                let words = KeptLists::words(&engine.sizes, &state);
+                let words = read_words(engine, session, at, readback::of_cells(words, lights))?;
+                Ok(Self::of_cells(words, &engine.sizes, state, (frame, clustering)))
+            }
+        }
+    }
+
+    /// From [`readback::of_cells`].
+    fn of_cells(
+        words: [Vec<u32>; 7],
+        sizes: &ClusteringSizes,
+        state: ClusteringState,
+        (frame, clustering): (u32, usize),
+    ) -> Self {
+        let [counters, lights_per_fragment, clusters, fragments, offsets, lengths, indices] = words;
+        let lengths = &lengths;
         let kept = KeptLists { sizes, clusters: &clusters, offsets: &offsets, lengths, indices: &indices };
         let order = kept.order();
         let in_order = |values: &[u32]| order.iter().map(|&place| values[place]).collect();
         let (offsets, indices) = kept.in_order(&order);
-        Ok(Self {
+        Self {
             state,
             counters: DeviceCounts::from_words(&counters),
             lights_per_fragment,
@@ -60,7 +92,39 @@ impl Counted {
             visible_fragments: in_order(&fragments),
             lists: ClusterLists { frame, clustering: clustering as u32, offsets, indices },
             light_indices: kept.wanted(&state),
-        })
+            octree: None,
+        }
+    }
+
+    /// From [`readback::of_leaves`]. Slots without lights are those of no leaf.
+    fn of_leaves(words: [Vec<u32>; 5], octree: OctreeCounts, (frame, clustering): (u32, usize)) -> Self {
+        let [counters, lights_per_fragment, fragments, runs, indices] = words;
+        let (mut slots, mut visible_fragments) = (vec![], vec![]);
+        let mut lists =
+            ClusterLists { frame, clustering: clustering as u32, offsets: vec![0], indices: vec![] };
+        for (slot, run) in runs.chunks_exact(2).enumerate().filter(|(_, run)| run[1] > 0) {
+            let (first, count) = (run[0] as usize, run[1] as usize);
+            lists.indices.extend_from_slice(&indices[first..first + count]);
+            lists.offsets.push(lists.indices.len() as u32);
+            slots.push(slot as u32);
+            visible_fragments.push(fragments[slot]);
+        }
+        let (visible, index_total) = (slots.len() as u32, lists.indices.len() as u32);
+        Self {
+            state: ClusteringState {
+                visible,
+                visible_total: visible,
+                index_total,
+                ..ClusteringState::default()
+            },
+            counters: DeviceCounts::from_words(&counters),
+            lights_per_fragment,
+            visible_clusters: slots,
+            visible_fragments,
+            light_indices: index_total.into(),
+            lists,
+            octree: Some(octree),
+        }
     }
 
     /// Refuses a frame whose lists do not ascend, or in which fewer lights were evaluated than the lists of its fragments
@@ -108,6 +172,7 @@ impl Counted {
                     lights: self.lists.list(visible).len() as u32,
                 })
                 .collect(),
+            octree: self.octree.clone(),
         }
     }
 }

@@ -97,7 +97,7 @@ impl Engine {
     pub fn overflowed(&self, session: &Session, slot: usize) -> bool {
         let Capacities { visible_clusters, light_indices, .. } = self.sizes.capacities;
         let mut state = [ClusteringState::default()];
-        self.method.has_lists()
+        self.method.assigns()
             && (0..self.clusterings.len() as u64).any(|clustering| {
                 session.frame_slots[slot].states.read_into(clustering * STATE_BYTES, &mut state);
                 let ClusteringState { visible_total, index_total, longest, .. } = state[0];
@@ -115,6 +115,6 @@ fn most_needed(states: &[ClusteringState], need: impl Fn(&ClusteringState) -> u3
 }
 
 /// `needed` with spare room, as far as `most` allows.
-fn with_margin(needed: u32, most: u32) -> u32 {
+pub(super) fn with_margin(needed: u32, most: u32) -> u32 {
     needed.saturating_add(needed / GROWTH_MARGIN).min(most).max(needed)
 }

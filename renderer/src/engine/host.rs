@@ -1,5 +1,6 @@
 //! What the host writes for each frame before it is recorded: grids, views, what is drawn, lights.
 
+use super::octree::HostOctree;
 use super::{Engine, FramePlan, Session};
 use crate::Result;
 use crate::buffers::BufferName;
@@ -9,7 +10,7 @@ use crate::geometry::VolumeKind;
 use crate::gpu_interface::{DrawCounts, GridData, LightData};
 use crate::gpu_scene::GpuScene;
 use crate::lights::{FrameLights, PointLight};
-use crate::methods::Scenery;
+use crate::methods::{Scenery, hashed};
 use glam::{DVec3, Vec3};
 
 impl Engine {
@@ -29,12 +30,21 @@ impl Engine {
         if session.scene.origin != origin {
             session.scene.move_origin(&session.context, origin)?;
         }
+        self.write_octree(session, slot, (plan, lights))?;
         for clustering in 0..self.clusterings.len() {
             self.write_clustering(session, slot, plan, clustering, lights.list);
         }
         self.write_draws(session, slot, plan);
         self.write_lights(slot, lights, origin);
         Ok(())
+    }
+
+    /// Slots for leaves of the octree, in a row; nothing without one.
+    fn row_of_leaves(&self) -> [u32; 3] {
+        match self.octree.as_ref().and_then(HostOctree::octree) {
+            Some(octree) => [hashed::table_sizes(octree).leaves.max(1), 1, 1],
+            None => [0; 3],
+        }
     }
 
     /// What each view draws, or in which order.
@@ -83,6 +93,7 @@ impl Engine {
         number: usize,
         lights: &[PointLight],
     ) {
+        let leaves = self.row_of_leaves();
         let clustering = &mut self.clusterings[number];
         let GpuScene { origin, reach, bounds, .. } = session.scene;
         let around =
@@ -97,7 +108,7 @@ impl Engine {
                 ..grid_data(grid, views, origin, count, &self.sizes)
             },
             Some(grid) => grid_data(grid, views, origin, count, &self.sizes),
-            None => gridless_data(count),
+            None => GridData { dimensions: leaves, ..gridless_data(count) },
         };
         clustering.cluster_count = grid.map_or(0, |grid| grid.cluster_count() as u32);
         clustering.dimensions = data.dimensions;

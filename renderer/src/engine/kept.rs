@@ -89,8 +89,14 @@ mod tests {
             lists,
             slice_planes: 0,
             lights: 100,
-            capacities: Capacities { visible_clusters: 10, light_indices: 20, list_entries: 3 },
+            capacities: Capacities {
+                visible_clusters: 10,
+                light_indices: 20,
+                list_entries: 3,
+                ..Capacities::default()
+            },
             assigner: Assigner::Brute,
+            has_octree: false,
             counting: true,
             pixels: 1,
         }

@@ -15,6 +15,7 @@ mod growth;
 mod host;
 mod kept;
 mod mode;
+mod octree;
 mod plan;
 mod requirements;
 mod session;
@@ -37,7 +38,7 @@ use crate::culling::Culling;
 use crate::gpu_interface::{ClusteringState, LightData};
 use crate::layouts::Pipeline;
 use crate::lights::FrameLights;
-use crate::measure::{ClusteringCounts, FrameCounts, GrowthEvent, StructureMemory};
+use crate::measure::{ClusteringCounts, FrameCounts, GrowthEvent, OctreeCounts, StructureMemory};
 use crate::methods::{GridBox, Method};
 use crate::pass::{Recorder, ScopeTree, Timed};
 use crate::passes::{Draws, Frame};
@@ -48,6 +49,7 @@ use crate::{Result, frame};
 use ash::vk;
 use glam::DVec3;
 use mode::Chosen;
+use octree::HostOctree;
 use std::sync::Arc;
 
 /// The device's part of a run in one mode: temporal (nothing counted) or atemporal (all counted).
@@ -77,6 +79,7 @@ pub struct Engine {
     /// Whether the frame at hand brings others.
     lights_changed: bool,
     slice_planes: Vec<f32>,
+    octree: Option<HostOctree>,
     clusterings: Vec<Clustering>,
     /// Whether frames are shaded; true at first.
     pub shaded: bool,
@@ -129,6 +132,7 @@ impl Engine {
             staged: Vec::with_capacity(mode.lights as usize),
             lights_there: None,
             lights_changed: false,
+            octree: HostOctree::new(&session.context, chosen.method, &sizes.capacities.octree)?,
             slice_planes: Vec::with_capacity(largest.slice_planes as usize),
             clusterings: vec![],
             shaded: true,
@@ -174,6 +178,11 @@ impl Engine {
         self.clusterings[clustering].dimensions
     }
 
+    /// What is told of the octree of the frame written last; `None` where the method has none.
+    pub fn octree_counts(&self) -> Option<OctreeCounts> {
+        self.octree.as_ref().and_then(HostOctree::counts)
+    }
+
     /// How it finds lights.
     pub fn method(&self) -> Method {
         self.method
@@ -186,6 +195,9 @@ impl Engine {
 
     fn make_clusterings(&mut self, session: &Session) -> Result<()> {
         self.clusterings.clear();
+        if let Some(octree) = &mut self.octree {
+            octree.there = false;
+        }
         let slots = &session.frame_slots;
         let shared: [SharedBuffer; 8] = [
             (BufferName::Views, slots.each_ref().map(|slot| &slot.views)),
@@ -229,6 +241,9 @@ impl Engine {
             (extend.1)(r, frame);
         });
         self.clusterings.iter_mut().for_each(|clustering| clustering.builds_boxes = false);
+        if let Some(octree) = &mut self.octree {
+            octree.there = true;
+        }
         session.frame_slots[slot].submit()
     }
 
@@ -275,6 +290,7 @@ impl Engine {
             light_staging: &self.staging[slot],
             lights_changed: self.lights_changed,
             light_count: self.staged.len() as u32,
+            octree: self.octree.as_ref().map(|octree| octree.tables(slot)),
             states: &this.states,
             resolution: self.resolution,
             slot,

@@ -6,8 +6,8 @@ use crate::buffers::ClusteringSizes;
 use crate::config::Config;
 use crate::geometry::{SliceLaw, SphereTest};
 use crate::measure::Capacities;
-use crate::methods::Method;
 use crate::methods::model::MOST_ACCELERATED;
+use crate::methods::{Groups, Method};
 use crate::pipelines::{Variant, lights_at_once};
 use crate::{Error, Result, geometry::Grid};
 
@@ -86,18 +86,17 @@ impl Chosen {
     /// What an engine needs of a run's configuration, which has one value on every axis.
     pub fn of(run: &Config, mode: &Mode) -> Self {
         let method = run.methods[0];
-        // A method without lists assigns nothing.
-        let has_lists = method.has_lists();
+        let assigns = method.assigns();
         let clusters = method.listed(run.clusters[0].of(&method));
         Self {
             method,
-            assigner: if has_lists { mode.assigner } else { Assigner::Brute },
+            assigner: if assigns { mode.assigner } else { Assigner::Brute },
             clusters,
             compaction: match clusters {
                 Clusters::Visible => run.compaction[0],
                 Clusters::All => Compaction::Ranks,
             },
-            lists: if has_lists { run.lists[0] } else { ListStore::Offsets },
+            lists: if assigns { run.lists[0] } else { ListStore::Offsets },
             bounds: method.kept_bounds(run.bounds[0].of(&method)),
             slices: run.slices[0].of(&method),
             test: run.test[0].of(&method),
@@ -132,7 +131,7 @@ impl Chosen {
         let kind = self.method.kind();
         Variant {
             lookup: kind.lookup,
-            cells: kind.cells,
+            groups: kind.groups,
             sharing: kind.sharing,
             clusters: self.clusters,
             bounds: self.bounds,
@@ -167,13 +166,14 @@ impl Chosen {
             clusters,
             listed: self.clusters,
             bounds: self.bounds,
-            boxed: kind.cells.is_some_and(|cells| cells.keeps_boxes(self.test)),
+            boxed: kind.cells().is_some_and(|cells| cells.keeps_boxes(self.test)),
             compaction: self.compaction,
             lists: self.lists,
             slice_planes,
             lights: mode.lights,
             capacities: Capacities { list_entries, ..capacities },
             assigner: self.assigner,
+            has_octree: kind.groups == Groups::Leaves,
             counting: mode.counting,
             pixels: u64::from(run.resolution[0]) * u64::from(run.resolution[1]),
         }

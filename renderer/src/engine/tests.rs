@@ -116,7 +116,7 @@ fn compaction_equals_its_twin_at_odd_sizes() {
         let room = Capacities {
             visible_clusters: clusters.min(4_000_000) as u32,
             light_indices: 16,
-            list_entries: 0,
+            ..Capacities::default()
         };
         let mut bench = Bench::new(ORTHO, box_grid([clusters as u32, 1, 1]), &lights(10), room);
         assert_eq!(compaction_fault(&mut bench, clusters, case as u64 + 1).unwrap(), None);
@@ -125,7 +125,7 @@ fn compaction_equals_its_twin_at_odd_sizes() {
 
 #[test]
 fn visible_clusters_beyond_the_capacity_are_counted() {
-    let room = Capacities { visible_clusters: 100, light_indices: 16, list_entries: 0 };
+    let room = Capacities { visible_clusters: 100, light_indices: 16, ..Capacities::default() };
     let mut bench = Bench::new(ORTHO, box_grid([5000, 1, 1]), &lights(10), room);
     let bits = random_bits(5000, 2, 9);
     let twin = cpu::compact(&fragments_of(&bits, 5000));
@@ -137,7 +137,7 @@ fn visible_clusters_beyond_the_capacity_are_counted() {
 #[test]
 fn list_offsets_equal_their_twin_at_odd_sizes() {
     for clusters in [1u32, 63, 255, 256, 257, 1025, 16_384, 16_385, 70_000] {
-        let room = Capacities { visible_clusters: clusters, light_indices: 16, list_entries: 0 };
+        let room = Capacities { visible_clusters: clusters, light_indices: 16, ..Capacities::default() };
         let mut bench = Bench::new(ORTHO, box_grid([clusters, 1, 1]), &lights(1000), room);
         assert_eq!(offsets_fault(&mut bench, clusters).unwrap(), None);
     }
@@ -147,7 +147,7 @@ fn list_offsets_equal_their_twin_at_odd_sizes() {
 fn totals_beyond_32_bits_saturate_and_offsets_never_descend() {
     // Few blocks, and more than one workgroup takes.
     for clusters in [2000u32, 20_000] {
-        let room = Capacities { visible_clusters: clusters, light_indices: 16, list_entries: 0 };
+        let room = Capacities { visible_clusters: clusters, light_indices: 16, ..Capacities::default() };
         let mut bench = Bench::new(ORTHO, box_grid([clusters, 1, 1]), &lights(10), room);
         let state = bench.compact(&random_bits(u64::from(clusters), 1, 1));
         bench.upload(BufferName::ListLengths, &vec![1 << 24; state.visible as usize]);
@@ -166,7 +166,7 @@ fn totals_beyond_32_bits_saturate_and_offsets_never_descend() {
 /// Not a test of speed: whether a stage's time holds that stage's work and no other's.
 #[test]
 fn a_stage_ten_times_as_heavy_grows_alone() {
-    let room = Capacities { visible_clusters: 40_000, light_indices: 16, list_entries: 0 };
+    let room = Capacities { visible_clusters: 40_000, light_indices: 16, ..Capacities::default() };
     let mut bench = Bench::new(PERSP, frustum_grid([32, 32, 32]), &lights(1000), room);
     bench.compact(&random_bits(32 * 32 * 32, 1, 3));
     let growth = tenfold(&mut bench).unwrap();

@@ -78,6 +78,44 @@ gpu_struct! {
 }
 
 gpu_struct! {
+    /// Where a perfect spatial hash lies in the tables that all share; it takes a key p to slot (p mod m + offset[p mod r]) mod m.
+    pub struct HashData {
+        /// First of its slots.
+        pub slots: u32,
+        /// Slots a side, m.
+        pub side: u32,
+        /// First of its offsets.
+        pub offsets: u32,
+        /// Offsets a side, r.
+        pub offset_side: u32,
+    }
+
+    /// The hashes of one depth of an octree.
+    pub struct OctreeLayer {
+        /// That of the branches of this depth.
+        pub branches: HashData,
+        /// That of the filled leaves of the next depth; nothing asks it where there are none.
+        pub leaves: HashData,
+    }
+
+    /// The octree of a frame: where its cells lie, and where its tables.
+    pub struct OctreeData {
+        /// Lowest corner, world space, metres.
+        pub origin: [f32; 3],
+        /// Deepest cells per metre.
+        pub scale: f32,
+        /// Depth of the deepest leaves.
+        pub depth: u32,
+        /// Depth of the first layer.
+        pub start_depth: u32,
+        /// Deepest cells a side, 2^depth.
+        pub cells: f32,
+        /// A layer for each depth from `start_depth` on, down to that of the deepest branches.
+        pub layers: [OctreeLayer; 24],
+    }
+}
+
+gpu_struct! {
     /// The box around a cell along the axes of clustering space.
     pub struct ClusterBox in texels {
         /// Lowest corner, metres.

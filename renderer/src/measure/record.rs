@@ -1,7 +1,7 @@
 //! The records that passes produce and [`crate::output`] writes.
 
-use super::DeviceCounts;
 use super::counters::OCTAVE_PARTS;
+use super::{DeviceCounts, OctreeCounts};
 use crate::{Error, Result};
 use half::f16;
 
@@ -21,7 +21,7 @@ pub struct ClusterRecord {
 pub struct ClusteringCounts {
     /// Grid dimensions Dx, Dy, Dz.
     pub dimensions: [u32; 3],
-    /// Clusters with at least one visible fragment.
+    /// Clusters with at least one visible fragment; or all groups that have lists, where they do not depend on the views.
     pub visible_clusters: u64,
     /// Sum of the lengths of the light lists.
     pub light_indices: u64,
@@ -35,6 +35,8 @@ pub struct ClusteringCounts {
     pub lists_hash: u64,
     /// Visible clusters by ascending index.
     pub clusters: Vec<ClusterRecord>,
+    /// The octree whose filled leaves they are, where groups are such.
+    pub octree: Option<OctreeCounts>,
 }
 
 /// Counters of one frame: the atemporal run's record.
@@ -109,7 +111,10 @@ pub struct ViewPixels {
 impl FrameCounts {
     /// Lets go what is known of each cluster and each bin; the sums stay.
     pub fn keep_sums(&mut self) {
-        self.clusterings.iter_mut().for_each(|clustering| clustering.clusters = vec![]);
+        for clustering in &mut self.clusterings {
+            clustering.clusters = vec![];
+            clustering.octree.iter_mut().for_each(|octree| octree.tables = vec![]);
+        }
         self.lights_per_fragment = vec![];
     }
 
@@ -141,6 +146,16 @@ impl FrameCounts {
     /// Visible clusters that did not fit, of all clusterings.
     pub fn visible_clusters_dropped(&self) -> u64 {
         self.sum(|clustering| clustering.visible_clusters_dropped)
+    }
+
+    /// How often the frame built its octree: never where its lights are those of the last.
+    pub fn octree_rebuilds(&self) -> u64 {
+        self.sum(|clustering| clustering.octree.as_ref().map_or(0, |octree| octree.rebuilds))
+    }
+
+    /// What the tables of its octree take, bytes.
+    pub fn octree_bytes(&self) -> u64 {
+        self.sum(|clustering| clustering.octree.as_ref().map_or(0, |octree| octree.sizes.bytes()))
     }
 
     /// How much the depth of the first view jumps from pixel to pixel: the mean over pairs of neighbours of how many octaves their

@@ -1,14 +1,24 @@
 //! The one table of methods.
 
 use super::grid::{GridMethod, Space};
-use super::{Method, Sharing, WorldGrid};
+use super::sizes::{DEPTH, NODE, SLICES, Size, Sizes, Unit};
+use super::{HashedMethod, Method, NodeSize, Sharing, WorldGrid};
 use crate::assign::{Bounds, Clusters};
 use crate::geometry::CellShape;
 
-/// What a size is called that is a number of slices.
-const SLICES: &str = "SLICES";
-/// Names of sizes that are whole numbers.
-const WHOLE: [&str; 3] = ["COLUMNS", "ROWS", SLICES];
+/// What fragments that share a light list are grouped by, and who makes the lists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Groups {
+    /// Nothing: every fragment takes all lights, and there are no lists.
+    Nothing,
+    /// Cells of this shape, to whose lists the device assigns lights in each frame.
+    Cells(CellShape),
+    /// Leaves of an octree over the lights, which the host builds where the lights have changed.
+    Leaves,
+}
+
+/// Most sizes of a kind.
+const MOST_SIZES: usize = 3;
 
 /// A kind of method: what is behind a name but for the sizes.
 #[derive(Debug)]
@@ -27,9 +37,9 @@ pub struct Kind {
     pub sharing: Sharing,
     /// How shading walks a list: a file in `shaders-glsl/lookup`.
     pub lookup: &'static str,
-    /// Shape of the cells, which says what they are tested by; `None` where there are neither cells nor lists.
-    pub cells: Option<CellShape>,
-    make: fn(&[f64]) -> Method,
+    /// What has lists.
+    pub groups: Groups,
+    make: fn(&Sizes) -> Method,
 }
 
 /// What rows of the table begin from: a perspective grid for each view.
@@ -41,13 +51,13 @@ const PERSPECTIVE: Kind = Kind {
     about: "",
     sharing: Sharing::Indi,
     lookup: "clustered",
-    cells: Some(CellShape::Frustum),
+    groups: Groups::Cells(CellShape::Frustum),
     make: |_| Method::AllLights,
 };
 
 /// Every kind of method. All serve transparent geometry, all views in stereo, and any number of samples (models: where fragments
 /// run for each).
-pub static KINDS: [Kind; 17] = [
+pub static KINDS: [Kind; 18] = [
     Kind {
         name: "indi-persp",
         sizes: &["PIXELS"],
@@ -73,7 +83,7 @@ pub static KINDS: [Kind; 17] = [
         tuned: &[4.0],
         title: "Indi Ortho",
         about: "a grid of boxes for each view",
-        cells: Some(CellShape::Box),
+        groups: Groups::Cells(CellShape::Box),
         make: |sizes| Method::grid(Sharing::Indi, Space::Ortho { metres: sizes[0] }),
         ..PERSPECTIVE
     },
@@ -84,7 +94,7 @@ pub static KINDS: [Kind; 17] = [
         title: "Encl Ortho",
         about: "one grid of boxes around all views",
         sharing: Sharing::Encl,
-        cells: Some(CellShape::Box),
+        groups: Groups::Cells(CellShape::Box),
         make: |sizes| Method::grid(Sharing::Encl, Space::Ortho { metres: sizes[0] }),
         ..PERSPECTIVE
     },
@@ -172,11 +182,11 @@ pub static KINDS: [Kind; 17] = [
     },
     Kind {
         name: "ortiz",
-        sizes: &WHOLE,
+        sizes: &["COLUMNS", "ROWS", SLICES],
         tuned: &[16.0, 9.0, 24.0],
         title: "Ortiz",
         about: "so many square tiles and slices of each view's screen, whatever its pixels, tested as the boxes around them",
-        cells: Some(CellShape::BoxedFrustum),
+        groups: Groups::Cells(CellShape::BoxedFrustum),
         make: |sizes| {
             let [columns, rows, slices] = [sizes[0], sizes[1], sizes[2]];
             Method::grid(Sharing::Indi, Space::Counted { columns, rows, slices })
@@ -191,7 +201,7 @@ pub static KINDS: [Kind; 17] = [
         about: "one grid of so many cells an axis in a box of the world, whatever the views",
         sharing: Sharing::Encl,
         lookup: "world",
-        cells: Some(CellShape::Box),
+        groups: Groups::Cells(CellShape::Box),
         make: |sizes| Method::World(WorldGrid { cells: sizes[0] }),
     },
     Kind {
@@ -202,8 +212,27 @@ pub static KINDS: [Kind; 17] = [
         about: "a list for each model, as it is drawn, whatever the views",
         sharing: Sharing::Encl,
         lookup: "model",
-        cells: Some(CellShape::Model),
+        groups: Groups::Cells(CellShape::Model),
         make: |_| Method::Models,
+    },
+    Kind {
+        name: "hashed",
+        sizes: &[NODE, DEPTH],
+        tuned: &[0.5, 3.0],
+        title: "Hashed",
+        about: "an octree over the lights, its leaves found by perfect spatial hashes from a depth on; the size of its smallest \
+                nodes is in radii of the smallest light, or in metres with `m` behind it",
+        sharing: Sharing::Encl,
+        lookup: "hashed",
+        groups: Groups::Leaves,
+        make: |sizes| {
+            let size = sizes[0];
+            let node = match sizes.unit(0) {
+                Unit::Own => NodeSize::Radii(size),
+                Unit::Metres => NodeSize::Metres(size),
+            };
+            Method::Hashed(HashedMethod { node, start_depth: sizes[1] })
+        },
     },
     Kind {
         name: "all-lights",
@@ -213,42 +242,59 @@ pub static KINDS: [Kind; 17] = [
         about: "every light for every fragment: the truth",
         sharing: Sharing::Encl,
         lookup: "all_lights",
-        cells: None,
+        groups: Groups::Nothing,
         make: |_| Method::AllLights,
     },
 ];
 
-fn displ(sharing: Sharing, sizes: &[f64]) -> Method {
+fn displ(sharing: Sharing, sizes: &Sizes) -> Method {
     Method::grid(sharing, Space::Displ { pixels: sizes[0], displacement: sizes[1] })
 }
 
 /// Tiles that all have lists (Enhuber section 3.1).
-fn tiles(bounds: Bounds, sizes: &[f64]) -> Method {
+fn tiles(bounds: Bounds, sizes: &Sizes) -> Method {
     let tiled = GridMethod::new(Sharing::Indi, Space::Tiled { pixels: sizes[0] });
     Method::Grid(GridMethod { clusters: Clusters::All, bounds, ..tiled })
 }
 
 /// Tiles in slices (Enhuber section 3.2).
-fn sliced((clusters, bounds): (Clusters, Bounds), sizes: &[f64]) -> Method {
+fn sliced((clusters, bounds): (Clusters, Bounds), sizes: &Sizes) -> Method {
     let sliced = GridMethod::new(Sharing::Indi, Space::Sliced { pixels: sizes[0], slices: sizes[1] });
     Method::Grid(GridMethod { clusters, bounds, ..sliced })
 }
 
+impl Groups {
+    /// Shape of the cells to whose lists the device assigns lights; `None` without such.
+    pub fn cells(self) -> Option<CellShape> {
+        match self {
+            Self::Cells(shape) => Some(shape),
+            Self::Nothing | Self::Leaves => None,
+        }
+    }
+}
+
 impl Kind {
-    /// Whether these are sizes of the kind: as many as [`Self::sizes`] names, and whole numbers of what is counted.
-    pub fn takes(&self, sizes: &[f64]) -> bool {
-        let whole = |(name, size): (&&str, &f64)| !WHOLE.contains(name) || size.fract() == 0.0;
-        sizes.len() == self.sizes.len() && self.sizes.iter().zip(sizes).all(whole)
+    /// Whether these are sizes of the kind: as many as [`Self::sizes`] names, each such as its name says.
+    pub fn takes(&self, sizes: &[Size]) -> bool {
+        sizes.len() == self.sizes.len() && self.sizes.iter().zip(sizes).all(|(name, size)| size.fits(name))
     }
 
     /// The method with these sizes, which it [takes](Self::takes).
-    pub fn with_sizes(&self, sizes: &[f64]) -> Method {
-        (self.make)(sizes)
+    pub fn with_sizes(&self, sizes: &[Size]) -> Method {
+        (self.make)(&Sizes(sizes))
     }
 
     /// The method with the tuned sizes.
     pub fn tuned(&self) -> Method {
-        self.with_sizes(self.tuned)
+        // Every frame asks, so that nothing may be allocated.
+        let sizes: [Size; MOST_SIZES] =
+            std::array::from_fn(|place| self.tuned.get(place).map_or(0.0, |&number| number).into());
+        self.with_sizes(&sizes[..self.tuned.len()])
+    }
+
+    /// Shape of the cells to whose lists the device assigns lights; `None` without such.
+    pub fn cells(&self) -> Option<CellShape> {
+        self.groups.cells()
     }
 
     /// The name with what its numbers stand for: `indi-displ-PIXELS-METRES`.
@@ -264,17 +310,24 @@ impl Method {
     }
 
     /// Sizes of the method, in the order of its name.
-    pub fn sizes(&self) -> Vec<f64> {
+    pub fn sizes(&self) -> Vec<Size> {
         match self {
             Self::AllLights | Self::Models => vec![],
-            Self::Grid(GridMethod { space, .. }) => space.sizes(),
-            Self::World(WorldGrid { cells }) => vec![*cells],
+            Self::Grid(GridMethod { space, .. }) => space.sizes().into_iter().map(Size::from).collect(),
+            Self::World(WorldGrid { cells }) => vec![Size::from(*cells)],
+            Self::Hashed(hashed) => hashed.sizes().to_vec(),
         }
     }
 
-    /// Whether the method builds light lists for cells of a grid.
+    /// Whether fragments look their lights up in lists.
     pub fn has_lists(&self) -> bool {
-        self.kind().cells.is_some()
+        self.kind().groups != Groups::Nothing
+    }
+
+    /// Whether the device assigns lights to the lists of cells, so that ways of assignment, tests and stores of lists bear on
+    /// the method.
+    pub fn assigns(&self) -> bool {
+        self.kind().cells().is_some()
     }
 
     /// Whether the two differ in their sizes alone.
@@ -282,9 +335,10 @@ impl Method {
         match (self, other) {
             (Self::AllLights, Self::AllLights)
             | (Self::World(_), Self::World(_))
+            | (Self::Hashed(_), Self::Hashed(_))
             | (Self::Models, Self::Models) => true,
             (Self::Grid(a), Self::Grid(b)) => a.is_like(b),
-            (Self::AllLights | Self::Grid(_) | Self::World(_) | Self::Models, _) => false,
+            (Self::AllLights | Self::Grid(_) | Self::World(_) | Self::Models | Self::Hashed(_), _) => false,
         }
     }
 }
@@ -298,9 +352,11 @@ mod tests {
         for kind in &KINDS {
             let method = kind.tuned();
             assert_eq!(method.kind().name, kind.name);
-            assert_eq!((kind.sizes.len(), method.sizes().as_slice()), (kind.tuned.len(), kind.tuned));
+            let sizes: Vec<f64> = method.sizes().iter().map(|size| size.number).collect();
+            assert_eq!((kind.sizes.len(), sizes.as_slice()), (kind.tuned.len(), kind.tuned));
+            assert!(kind.takes(&method.sizes()));
             if let Method::Grid(grid) = method {
-                assert_eq!((grid.sharing, Some(grid.space.shape())), (kind.sharing, kind.cells));
+                assert_eq!((grid.sharing, Some(grid.space.shape())), (kind.sharing, kind.cells()));
             }
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! A method's name is its identity everywhere: on the command line, in configurations, as run directory and as row of every
 //! table. `indi-persp-64`, `encl-ortho-4`, `indi-displ-64-32`, `tiled-16`, `sc-e-48-40`, `ortiz-16-9-24`, `g-20`, `m`,
-//! `all-lights`.
+//! `hashed-0.5-3`, `all-lights`.
 //!
 //! ```text
 //! plan (pure, f64) -> resources -> record (passes) -> lookup/<name>.glsl (shading) -> twin (CPU)
@@ -12,14 +12,18 @@
 
 pub mod all_lights;
 pub mod grid;
+pub mod hashed;
 mod kinds;
 pub mod model;
 mod name;
+mod sizes;
 pub mod world;
 
 pub use crate::geometry::Sharing;
 pub use grid::{Division, GridMethod, Space};
-pub use kinds::{KINDS, Kind};
+pub use hashed::{HashedMethod, NodeSize};
+pub use kinds::{Groups, KINDS, Kind};
+pub use sizes::{Size, Unit};
 pub use world::{GridBox, WorldGrid};
 
 use crate::Result;
@@ -43,6 +47,8 @@ pub enum Method {
     World(WorldGrid),
     /// Lights are found by the model that a fragment is of.
     Models,
+    /// Lights are found by the leaves of an octree over them.
+    Hashed(HashedMethod),
 }
 
 /// What of a frame but its views decides where groups lie.
@@ -64,7 +70,7 @@ impl Method {
         Self::Grid(GridMethod::new(sharing, space))
     }
 
-    /// The grids of a frame: one a view for [`Sharing::Indi`], one for [`Sharing::Encl`], none for a method without. Those that
+    /// The grids of a frame: one a view for [`Sharing::Indi`], one for [`Sharing::Encl`], none for a method without cells. Those that
     /// do not depend on the views lie nowhere yet: [`Self::settled`].
     ///
     /// # Errors
@@ -72,6 +78,7 @@ impl Method {
     pub fn plan(&self, views: &[View], resolution: [u32; 2], division: Division) -> Result<Vec<Grid>> {
         match *self {
             Self::AllLights => Ok(vec![]),
+            Self::Hashed(hashed) => hashed.check().map(|()| vec![]),
             Self::Grid(grid) => grid.plan(views, resolution, division),
             Self::World(grid) => Ok(vec![world::plan(grid)?]),
             Self::Models => Ok(vec![model::plan()]),
@@ -81,7 +88,7 @@ impl Method {
     /// A planned grid where it lies among a frame's lights and geometry.
     pub fn settled(&self, grid: &Grid, around: &Scenery) -> Grid {
         match self {
-            Self::AllLights | Self::Grid(_) => *grid,
+            Self::AllLights | Self::Grid(_) | Self::Hashed(_) => *grid,
             Self::World(_) => world::settled(grid, around),
             Self::Models => model::settled(around),
         }
@@ -96,7 +103,7 @@ impl Method {
     pub fn is_apart_from_views(&self) -> bool {
         match self {
             Self::AllLights | Self::Grid(_) => false,
-            Self::World(_) | Self::Models => true,
+            Self::World(_) | Self::Models | Self::Hashed(_) => true,
         }
     }
 
@@ -105,14 +112,14 @@ impl Method {
         match self {
             Self::AllLights => Clusters::Visible,
             Self::Grid(grid) => grid.clusters,
-            Self::World(_) | Self::Models => Clusters::All,
+            Self::World(_) | Self::Models | Self::Hashed(_) => Clusters::All,
         }
     }
 
     /// What of clusters is tested against lights by the method's name.
     pub fn own_bounds(&self) -> Bounds {
         match self {
-            Self::AllLights | Self::World(_) | Self::Models => Bounds::Implicit,
+            Self::AllLights | Self::World(_) | Self::Models | Self::Hashed(_) => Bounds::Implicit,
             Self::Grid(grid) => grid.bounds,
         }
     }
@@ -138,7 +145,8 @@ impl Method {
     /// What a clustering's buffers hold at first, for grids of up to `clusters` clusters; nothing without lists.
     pub fn capacities(&self, clusters: u64, listed: Clusters, first: Capacities) -> Capacities {
         match self {
-            Self::AllLights => Capacities { visible_clusters: 0, light_indices: 0, list_entries: 0 },
+            Self::AllLights => Capacities::default(),
+            Self::Hashed(_) => Capacities { octree: first.octree, ..Capacities::default() },
             Self::Grid(_) | Self::World(_) | Self::Models => grid::capacities(clusters, listed, first),
         }
     }
@@ -147,6 +155,7 @@ impl Method {
     pub fn record(&self, r: &mut Recorder, frame: &Frame, lights: Lights) -> (Depth, LightLists) {
         match self {
             Self::AllLights => all_lights::record(),
+            Self::Hashed(_) => hashed::record(r, frame),
             Self::Grid(_) | Self::World(_) | Self::Models => grid::record(r, frame, lights),
         }
     }

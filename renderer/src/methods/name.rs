@@ -1,6 +1,8 @@
 //! A method's name: the name of its kind and its sizes, as plain decimal numbers: `indi-persp-64`, `encl-ortho-0.5`,
-//! `indi-displ-64-32`, `tiled-16`, `sc-e-48-40`, `ortiz-16-9-24`, `g-20`, `m`, `all-lights`.
+//! `indi-displ-64-32`, `tiled-16`, `sc-e-48-40`, `ortiz-16-9-24`, `g-20`, `m`, `hashed-0.5-3`, `hashed-2m-3`, `all-lights`. A size
+//! may have its unit behind it.
 
+use super::sizes::Size;
 use super::{KINDS, Kind, Method};
 use crate::{Error, Result};
 use std::fmt;
@@ -21,7 +23,8 @@ impl FromStr for Method {
             let patterns = KINDS.iter().map(Kind::pattern).collect::<Vec<_>>().join(", ");
             let nearest = nearest(name);
             Error::input(format!(
-                "method '{name}' is not known: use one of {patterns}, with sizes above 0, of columns, rows and slices whole ones; did you mean '{nearest}'?"
+                "method '{name}' is not known: use one of {patterns}, with sizes above 0, of columns, rows, slices and depth whole ones (SIZE \
+                 in radii of the smallest light, or in metres as 2m; DEPTH from 0); did you mean '{nearest}'?"
             ))
         })
     }
@@ -31,23 +34,16 @@ fn parse(name: &str) -> Option<Method> {
     KINDS.iter().find_map(|kind| {
         let rest = name.strip_prefix(kind.name)?;
         let mut parts = rest.split('-');
-        let sizes: Option<Vec<f64>> = parts.next()?.is_empty().then(|| parts.map(size).collect())?;
+        let sizes: Option<Vec<Size>> = parts.next()?.is_empty().then(|| parts.map(Size::parse).collect())?;
         sizes.filter(|sizes| kind.takes(sizes)).map(|sizes| kind.with_sizes(&sizes))
     })
-}
-
-/// A plain decimal number above 0: digits and at most one point, no sign, no exponent.
-fn size(text: &str) -> Option<f64> {
-    let plain = text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
-    let value: f64 = if plain { text.parse().ok()? } else { return None };
-    (value > 0.0 && value.is_finite()).then_some(value)
 }
 
 /// The valid name nearest to `name`, with its sizes where they fit.
 fn nearest(name: &str) -> String {
     let parts = || name.split('-');
     let words: Vec<&str> = parts().filter(|part| part.starts_with(char::is_alphabetic)).collect();
-    let sizes: Vec<&str> = parts().filter(|part| size(part).is_some()).collect();
+    let sizes: Vec<&str> = parts().filter(|part| Size::parse(part).is_some()).collect();
     let word = words.join("-").to_ascii_lowercase();
     let distance = |kind: &&Kind| strsim::damerau_levenshtein(kind.name, &word);
     let kind = KINDS.iter().min_by_key(distance).unwrap_or(&KINDS[0]);
@@ -71,6 +67,8 @@ mod tests {
             "dc-i-12.5-64",
             "g-20",
             "m",
+            "hashed-0.5-3",
+            "hashed-2m-0",
             "ortiz-16-9-24",
             "all-lights",
         ] {
@@ -100,6 +98,12 @@ mod tests {
             ("g-0", "'g-20'"),
             ("G-8", "'g-8'"),
             ("m-2", "'m'"),
+            ("hashed-0-3", "'hashed-0.5-3'"),
+            ("hashed-0.25", "'hashed-0.5-3'"),
+            ("hashd-0.25m-2", "'hashed-0.25m-2'"),
+            ("hashed-1-2.5", "'hashed-0.5-3'"),
+            ("hashed-1-3m", "'hashed-0.5-3'"),
+            ("indi-ortho-4m", "'indi-ortho-4'"),
             ("ortiz-16-9", "'ortiz-16-9-24'"),
             ("ortiz-16-9-0", "'ortiz-16-9-24'"),
             ("ortiz-16.5-9-24", "'ortiz-16-9-24'"),

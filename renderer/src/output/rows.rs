@@ -1,7 +1,7 @@
 //! The rows of a run's CSV tables, each declared once: header, writer and readers follow from the type.
 
 use super::stages::{self, StageMinima};
-use crate::measure::{FrameCounts, StructureMemory};
+use crate::measure::{FrameCounts, OctreeTable, StructureMemory};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -79,7 +79,7 @@ macro_rules! frame_row {
         row! {
             /// A frame: the counters of the atemporal run, and GPU milliseconds, of each stage the minimum over the
             /// temporal runs; `None` where nothing was timed.
-            "frames.csv" FrameRow added fragments_hidden lights_dropped depth_discontinuity {
+            "frames.csv" FrameRow added fragments_hidden lights_dropped depth_discontinuity octree_rebuilds octree_bytes {
                 /// Frame number in the recording.
                 frame: u32,
                 /// Its time in the recording, seconds.
@@ -159,12 +159,18 @@ frame_row! {
         /// Mean over neighbouring pixels of the first view of the octaves by which their distances differ, millionths.
         #[serde(default)]
         depth_discontinuity: u64 = FrameCounts::depth_discontinuity;
+        /// How often the frame built an octree over the lights: not where they are those of the last.
+        #[serde(default)]
+        octree_rebuilds: u64 = FrameCounts::octree_rebuilds;
+        /// What the octree's tables take, bytes.
+        #[serde(default)]
+        octree_bytes: u64 = FrameCounts::octree_bytes;
     }
     times {
         /// The whole frame.
         gpu_ms_frame = &[stages::FRAME];
-        /// Everything that clusters, over all clusterings.
-        gpu_ms_cluster = &["frame/cluster"];
+        /// Everything that clusters, over all clusterings; of an octree, its way to the device.
+        gpu_ms_cluster = &["frame/cluster", "frame/octree"];
         /// Depth pass and marking of visible clusters (Gelderen figure 6.8), over clusterings and views; of a method
         /// without clusters, its depth pass.
         gpu_ms_visibility = &["frame/depth", "frame/cluster/depth", "frame/cluster/mark", "frame/cluster/bounds"];
@@ -262,6 +268,47 @@ row! {
         used: u64,
         /// What the frame that needs most needs, bytes.
         most: u64,
+    }
+}
+
+row! {
+    /// One table of the octree of a frame that built one.
+    "octree.csv" OctreeRow {
+        /// Frame number in the recording.
+        frame: u32,
+        /// `structure`: branches; `data`: filled leaves.
+        table: String,
+        /// Depth of the nodes that are its keys.
+        depth: u32,
+        /// How many nodes it holds.
+        keys: u32,
+        /// Slots a side, m.
+        slot_side: u32,
+        /// Offsets a side, r.
+        offset_side: u32,
+        /// What its slots take, bytes.
+        slot_bytes: u64,
+        /// What its offsets take, bytes.
+        offset_bytes: u64,
+        /// Lights of all its leaves.
+        light_indices: u64,
+    }
+}
+
+impl OctreeRow {
+    /// The row of a table of the octree of a frame.
+    pub fn new(frame: u32, table: &OctreeTable) -> Self {
+        Self {
+            frame,
+            table: table.kind.name().into(),
+            depth: table.depth,
+            keys: table.keys,
+            slot_side: table.side,
+            offset_side: table.offset_side,
+            slot_bytes: table.slot_bytes(),
+            offset_bytes: table.offset_bytes(),
+            light_indices: table.light_indices,
+        }
     }
 }
 

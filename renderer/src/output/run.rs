@@ -122,13 +122,18 @@ impl RunWriter {
     }
 
     /// Writes the tables that hold counts alone. What they need of `counts` and [`Self::finish`] does not, the records of
-    /// clusters and the bins of fragments, may be let go then.
+    /// clusters, the bins of fragments and the tables of octrees, may be let go then.
     ///
     /// # Errors
     /// A file cannot be written.
     pub fn write_counted(&self, counts: &[FrameCounts]) -> Result<()> {
         self.write_table(tables::clusterings(counts))?;
-        self.write_table(tables::histograms(counts))
+        self.write_table(tables::histograms(counts))?;
+        match counts.iter().any(|frame| frame.octree_rebuilds() > 0) {
+            true => self.write_table(tables::octrees(counts)),
+            // Most methods have no octree.
+            false => Ok(()),
+        }
     }
 
     /// After [`Self::write_counted`] and [`Self::write_memory`], writes the tables with times and the manifest, and puts the directory in its place, over an older run's.

@@ -2,7 +2,7 @@
 
 use super::rows::{
     ClusteringRow, FRAGMENTS_PER_CLUSTER, FrameRow, HistogramRow, LIGHTS_PER_CLUSTER, LIGHTS_PER_FRAGMENT,
-    Row, TimingRow,
+    OctreeRow, Row, TimingRow,
 };
 use super::stages::StageMinima;
 use crate::measure::{ClusteringCounts, FrameCounts, FrameTimes};
@@ -57,6 +57,15 @@ pub(super) fn clusterings(counts: &[FrameCounts]) -> impl Iterator<Item = Cluste
                 lists_hash: format!("{:016x}", clustering.lists_hash),
             }
         })
+    })
+}
+
+/// The tables of each octree, in the frame that built it.
+pub(super) fn octrees(counts: &[FrameCounts]) -> impl Iterator<Item = OctreeRow> + '_ {
+    let built = counts.iter().filter(|frame| frame.octree_rebuilds() > 0);
+    built.flat_map(|frame| {
+        let octrees = frame.clusterings.iter().filter_map(|clustering| clustering.octree.as_ref());
+        octrees.flat_map(|octree| octree.tables.iter().map(|table| OctreeRow::new(frame.frame, table)))
     })
 }
 

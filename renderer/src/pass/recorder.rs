@@ -136,6 +136,8 @@ pub struct Recorder<'a> {
     tracker: &'a mut FrameTracker,
     timed: Timed,
     current: Option<ScopeId>,
+    /// What the host did for the frame before it was recorded, as far as it is told: the recorder's clock is ahead by that.
+    before: Duration,
 }
 
 /// Keeps the barrier tracker's memory from frame to frame.
@@ -181,6 +183,7 @@ impl<'a> Recorder<'a> {
             tracker,
             timed,
             current: None,
+            before: Duration::ZERO,
         };
         recorder.full_barrier();
         recorder
@@ -205,16 +208,30 @@ impl<'a> Recorder<'a> {
             let begin = self.timestamp();
             self.timestamps.places.push([begin; 2]);
         }
-        let start = Instant::now();
+        let start = self.now();
         self.timestamps.cpu.push((start, Duration::ZERO));
         let result = body(self);
-        self.timestamps.cpu[position].1 = start.elapsed();
+        self.timestamps.cpu[position].1 = self.now() - start;
         if timed {
             self.timestamps.places[position][1] = self.timestamp();
         }
         self.context.end_label(self.commands);
         self.current = outer;
         result
+    }
+
+    /// A stage without commands that the host took `seconds` for before the frame was recorded: told as if it had been now, so that
+    /// it lies in the stages that are open, and they last as much longer.
+    pub fn host_step(&mut self, name: &str, seconds: f64) {
+        let position = self.timestamps.scopes.len();
+        let took = Duration::from_secs_f64(seconds.max(0.0));
+        self.scope(name, |r| r.before += took);
+        // What telling it took is not the step's.
+        self.timestamps.cpu[position].1 = took;
+    }
+
+    fn now(&self) -> Instant {
+        Instant::now() + self.before
     }
 
     /// Runs `body` as a pass: a stage of its own where passes are timed. A stage's passes by one name are numbered.

@@ -81,6 +81,11 @@ impl LightLists {
         Self { clusterings: 1 << visible.clustering }
     }
 
+    /// Those of the leaves of an octree, which serve all views.
+    pub(super) fn of_octree() -> Self {
+        Self { clusterings: u32::MAX }
+    }
+
     /// Whether they are there for a view.
     pub fn serve(self, frame: &Frame, view: usize) -> bool {
         self.clusterings >> frame.sharing.clustering_of(view) & 1 == 1

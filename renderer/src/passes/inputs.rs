@@ -1,5 +1,6 @@
 //! What a frame is recorded from.
 
+use super::octree::OctreeTables;
 use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction, ListStore, Marking};
 use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::clustering::Clustering;
@@ -172,6 +173,8 @@ pub struct Frame<'a> {
     pub lights_changed: bool,
     /// How many lights there are.
     pub light_count: u32,
+    /// The octree over the lights; `None` where the method has none.
+    pub octree: Option<OctreeTables<'a>>,
     /// Where the host finds each clustering's state.
     pub states: &'a Buffer,
     /// Width and height of each view, pixels.
@@ -184,9 +187,15 @@ pub struct Frame<'a> {
 pub const PLACES: BufferSet = set(&[B::ClusterBits, B::WordRanks, B::ClusterPlaces]);
 
 impl Frame<'_> {
-    /// What tells the list of a cluster.
+    /// What tells the place of a group among the lists: of a visible cluster, or of a leaf.
+    pub fn group_places(&self) -> BufferSet {
+        PLACES | set(&[B::OctreeNodes, B::OctreeOffsets])
+    }
+
+    /// What tells the list of a group.
     pub fn list_places(&self) -> BufferSet {
-        PLACES
+        self.group_places()
+            | set(&[B::OctreeLeaves])
             | match self.lists {
                 ListStore::Offsets => set(&[B::ListOffsets]),
                 ListStore::Fixed(_) => set(&[B::ListLengths]),

@@ -3,7 +3,7 @@
 
 use super::draws::{self, SurfacePipelines};
 use super::handles::Depth;
-use super::inputs::{Eyes, Frame, PLACES};
+use super::inputs::{Eyes, Frame};
 use crate::assign::Marking;
 use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::draw_list::SurfaceKind;
@@ -25,14 +25,14 @@ pub fn record(r: &mut Recorder, frame: &Frame, (clustering, view): (usize, usize
     });
 }
 
-/// Counts the fragments of each visible cluster, of all views; atemporal runs alone, after the frame.
+/// Counts the fragments of each visible cluster, or of each leaf of an octree, of all views; atemporal runs alone, after the frame.
 pub fn count_fragments(r: &mut Recorder, frame: &Frame, clustering: usize) {
     let this = &frame.clusterings[clustering];
     r.clear(&this.buffers[B::VisibleFragments]);
-    let found = (PLACES, set(&[B::VisibleFragments]));
+    let found = (frame.group_places(), set(&[B::VisibleFragments]));
     for view in this.views.clone() {
         let by_pixel = Size::pixels(frame.resolution);
-        visit(r, frame, (clustering, view), (&frame.pipelines.clustered().count_fragments, by_pixel), found);
+        visit(r, frame, (clustering, view), (frame.pipelines.count_fragments(), by_pixel), found);
     }
 }
 

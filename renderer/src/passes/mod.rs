@@ -19,6 +19,7 @@ pub mod limit;
 pub mod lines;
 pub mod list_clusters;
 pub mod mark;
+pub mod octree;
 pub mod pixel_clusters;
 pub mod pixel_maps;
 mod pixel_models;

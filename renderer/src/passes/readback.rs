@@ -3,6 +3,7 @@
 use super::inputs::Frame;
 use crate::buffers::BufferName as B;
 use crate::gpu_interface::{COUNTER_COUNT, ClusteringState};
+use crate::measure::OctreeSizes;
 use crate::pass::{BufferCopy, Recorder};
 use crate::vk::Buffer;
 
@@ -30,28 +31,48 @@ pub fn clear_counters(r: &mut Recorder, frame: &Frame) {
     }
 }
 
-/// Sizes of what [`copy_counted`] copies of one clustering, in its order; 32-bit words. `lists` are those of visible clusters, and
-/// of offsets, lengths and lights of their lists.
-pub fn counted_words(lists: [u64; 4], lights: u32) -> [u64; 7] {
-    let [clusters, offsets, lengths, indices] = lists;
-    [2 * COUNTER_COUNT as u64, u64::from(lights) + 1, clusters, clusters, offsets, lengths, indices]
+/// What is read back of one clustering, and how many 32-bit words of each.
+pub type Source = (B, u64);
+
+/// What every clustering has: counters, and lights per fragment.
+fn counts(lights: u32) -> [Source; 2] {
+    [(B::Counters, 2 * COUNTER_COUNT as u64), (B::LightsPerFragment, u64::from(lights) + 1)]
 }
 
-/// Copies, one behind the other: counters, lights per fragment, visible clusters, their fragments, offsets, lengths and lights of
-/// their lists.
-pub fn copy_counted(r: &mut Recorder, frame: &Frame, clustering: usize, words: &[u64; 7], target: &Buffer) {
-    let sources = [
-        B::Counters,
-        B::LightsPerFragment,
-        B::VisibleClusters,
-        B::VisibleFragments,
-        B::ListOffsets,
-        B::ListLengths,
-        B::LightIndices,
-    ];
+/// What is read of a clustering of cells, of whose lists `lists` says how many words there are: of visible clusters, and of
+/// offsets, lengths and lights.
+pub fn of_cells(lists: [u64; 4], lights: u32) -> [Source; 7] {
+    let [counters, bins] = counts(lights);
+    let [clusters, offsets, lengths, indices] = lists;
+    [
+        counters,
+        bins,
+        (B::VisibleClusters, clusters),
+        (B::VisibleFragments, clusters),
+        (B::ListOffsets, offsets),
+        (B::ListLengths, lengths),
+        (B::LightIndices, indices),
+    ]
+}
+
+/// What is read of an octree with tables of these sizes.
+pub fn of_leaves(sizes: &OctreeSizes, lights: u32) -> [Source; 5] {
+    let [counters, bins] = counts(lights);
+    let leaves = u64::from(sizes.leaves);
+    [
+        counters,
+        bins,
+        (B::VisibleFragments, leaves),
+        (B::OctreeLeaves, 2 * leaves),
+        (B::OctreeIndices, sizes.indices.into()),
+    ]
+}
+
+/// Copies `sources`, one behind the other.
+pub fn copy_counted(r: &mut Recorder, frame: &Frame, clustering: usize, sources: &[Source], target: &Buffer) {
     let mut offset = 0;
-    for (source, words) in sources.into_iter().zip(words) {
-        if *words > 0 {
+    for &(source, words) in sources {
+        if words > 0 {
             let from = &frame.clusterings[clustering].buffers[source];
             r.copy(&BufferCopy { from, to: target, offset, size: 4 * words });
             offset += 4 * words;

@@ -99,7 +99,7 @@ fn shading<'a>(
         colors: &[(TargetName::Radiance, ColorUse::Keep)],
         depth: DepthUse::Test,
         draws,
-        reads: frame.list_places() | set(&[B::Lights, B::LightIndices]),
+        reads: frame.list_places() | set(&[B::Lights, B::LightIndices, B::OctreeIndices]),
         writes: COUNTED,
     }
 }

@@ -4,6 +4,7 @@ use super::{Output, PipelineStore, Variant};
 use crate::Result;
 use crate::draw_list::SurfaceKind;
 use crate::layouts::Pipeline;
+use crate::methods::Groups;
 use crate::shading::Shading;
 use crate::targets::TargetName;
 use crate::texture_sets::TextureSet;
@@ -66,12 +67,12 @@ impl PipelineStore {
                     Output::Shades(SurfaceKind::Masked, TextureSet::BASE_COLOR),
                 )?,
             ],
-            pixel_clusters: match variant.cells {
-                Some(_) => Some([
+            pixel_clusters: match variant.groups {
+                Groups::Cells(_) | Groups::Leaves => Some([
                     self.compute(clusters, &defines.with("WORLD_LOOKUP", 0))?,
                     self.compute(clusters, &defines.with("WORLD_LOOKUP", 1))?,
                 ]),
-                None => None,
+                Groups::Nothing => None,
             },
             lines: [self.lines(variant, true)?, self.lines(variant, false)?],
             spheres: self.spheres(variant)?,

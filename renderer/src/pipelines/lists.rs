@@ -106,8 +106,6 @@ pipelines! {
     pub struct ClusteredPipelines, made by clustered with make {
         /// Marking the clusters of fragments.
         mark: VisitPipelines = make.visit(Visit::Mark);
-        /// Counting the fragments of visible clusters.
-        count_fragments: VisitPipelines = make.visit(Visit::Count);
         /// Prefix sum of the visibility words.
         compact: ScanPipelines = make.scan("SCAN_VISIBILITY");
         /// Places for visible clusters by a counter, and what follows from their number.

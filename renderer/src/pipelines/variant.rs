@@ -7,6 +7,7 @@ use crate::draw_list::SurfaceKind;
 use crate::geometry::{CellShape, Separators, Sharing, SliceLaw, SphereTest};
 use crate::lights::Attenuation;
 use crate::material::MaterialModel;
+use crate::methods::Groups;
 use crate::shading::Shading;
 use crate::texture_sets::TextureSet;
 
@@ -15,8 +16,8 @@ use crate::texture_sets::TextureSet;
 pub struct Variant {
     /// How shading walks the lights of a fragment: a file of this name in `lookup`.
     pub lookup: &'static str,
-    /// What cells look like; `None` where there are none.
-    pub cells: Option<CellShape>,
+    /// What fragments that share a list are grouped by.
+    pub groups: Groups,
     /// How views share clusterings.
     pub sharing: Sharing,
     /// Which clusters get lists.
@@ -68,9 +69,14 @@ pub fn lights_at_once(has_lists: bool, lights: u32) -> u32 {
 }
 
 impl Variant {
+    /// What cells look like; `None` where there are none.
+    pub(super) fn cells(&self) -> Option<CellShape> {
+        self.groups.cells()
+    }
+
     /// Whether groups are models, which fragments know and depth does not tell.
     pub(super) fn has_models(&self) -> bool {
-        self.cells == Some(CellShape::Model)
+        self.cells() == Some(CellShape::Model)
     }
 
     /// Whether fragments run once per sample, so that they lie where the depth buffer says.
@@ -121,7 +127,7 @@ impl Variant {
 
     /// The defines of every shader of this variant.
     pub(super) fn defines(&self) -> Defines {
-        let space = match self.cells {
+        let space = match self.cells() {
             Some(CellShape::Frustum | CellShape::BoxedFrustum) | None => "SPACE_PERSPECTIVE",
             Some(CellShape::Box) => "SPACE_ORTHOGRAPHIC",
             Some(CellShape::Model) => "SPACE_MODEL",
@@ -159,6 +165,7 @@ impl Variant {
             .with("SAMPLES", self.samples)
             .with("PER_SAMPLE", u32::from(self.per_sample()))
             .with("MATERIAL", material)
+            .with("LEAVES", u32::from(self.groups == Groups::Leaves))
             .with("COUNTERS", u32::from(self.counting))
     }
 
@@ -176,7 +183,7 @@ impl Variant {
 
     /// Whether the boxes around the pieces of a frustum are tested, as they are kept.
     pub(super) fn is_boxed(&self) -> bool {
-        self.cells.is_some_and(|cells| cells.keeps_boxes(self.test))
+        self.cells().is_some_and(|cells| cells.keeps_boxes(self.test))
     }
 
     /// Definitions for shaders that build lists.
@@ -191,10 +198,10 @@ impl Variant {
 
     /// Definitions for shaders that ask what a sphere meets.
     pub(super) fn test_defines(&self) -> Defines {
-        let boxes = self.cells == Some(CellShape::Box);
+        let boxes = self.cells() == Some(CellShape::Box);
         let nearest = matches!(self.test, SphereTest::Exact | SphereTest::Box);
         // Planes are cheaper than the nearest point, but for boxes.
-        let pieces = matches!(self.cells, Some(CellShape::Frustum | CellShape::BoxedFrustum));
+        let pieces = matches!(self.cells(), Some(CellShape::Frustum | CellShape::BoxedFrustum));
         let half_spaces = self.test.asks(Separators::HALF_SPACES) || nearest && pieces && !self.is_boxed();
         let [edges, nearest_vertex, normals, vertices] =
             [Separators::EDGES, Separators::NEAREST_VERTEX, Separators::NORMALS, Separators::VERTICES]

@@ -14,7 +14,7 @@ pub fn assigner(
     session: &mut Session,
     (run, plans): (&PlannedRun, &[FramePlan]),
 ) -> Result<Assigner> {
-    if !run.method.has_lists() {
+    if !run.method.assigns() {
         return Ok(Assigner::Brute);
     }
     match run.assign.fixed() {

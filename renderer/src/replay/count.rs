@@ -160,7 +160,7 @@ impl Counting<'_> {
 
     fn deliver(&mut self, plan: &FramePlan, pixels: &[ViewPixels]) -> Result<()> {
         self.sink.images(plan.frame, pixels)?;
-        if self.run.method.has_lists() {
+        if self.run.method.assigns() {
             let image = still::birdseye(self.inputs, self.session, (self.run, plan))?;
             self.sink.birdseye(plan.frame, &image)?;
         }

@@ -83,7 +83,7 @@ pub fn timed(mut run: Run, metric: &'static str, factors: [f64; 3]) -> Run {
 
 /// The run by another test of light against cluster.
 pub fn by_test(mut run: Run, test: &str) -> Run {
-    if run.method.kind().cells == Some(CellShape::Frustum) {
+    if run.method.kind().cells() == Some(CellShape::Frustum) {
         run.setting.way = Way::named("brute", test, run.method);
     }
     run

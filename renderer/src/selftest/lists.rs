@@ -59,7 +59,7 @@ fn lists_by(
     let capacities = Capacities {
         visible_clusters: grid.cluster_count() as u32,
         light_indices: 6_000_000,
-        list_entries: 0,
+        ..Capacities::default()
     };
     let bench = context.bench((assign, Test::Auto), Case { method, grid, lights, capacities })?;
     bench.leave(room);

@@ -28,7 +28,7 @@ pub fn check(context: &mut Context) -> Result<Verdict> {
 /// How far off the farthest coordinate is, in parts of what is allowed; NaN where one is no number.
 fn farthest(context: &mut Context, method: Method) -> Result<f64> {
     let lights = rain(1)?;
-    let capacities = Capacities { visible_clusters: 16, light_indices: 16, list_entries: 0 };
+    let capacities = Capacities { visible_clusters: 16, light_indices: 16, ..Capacities::default() };
     let case = Case { method, grid: frustum_grid([2, 2, 60]), lights: &lights, capacities };
     let bench = context.bench((Assign::Brute, Test::Auto), case)?;
     let probe = bench.session.store.probe(&bench.variant, "selftest/log2.comp")?;

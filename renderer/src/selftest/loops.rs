@@ -17,7 +17,7 @@ const NEEDED: u32 = 65_535;
 /// Whether a long loop makes all its turns, and if not, at least those that the program needs.
 pub fn check(context: &mut Context) -> Result<Verdict> {
     let lights = rain(1)?;
-    let capacities = Capacities { visible_clusters: 16, light_indices: 16, list_entries: 0 };
+    let capacities = Capacities { visible_clusters: 16, light_indices: 16, ..Capacities::default() };
     let case = Case { method: PERSP, grid: frustum_grid([2, 2, 2]), lights: &lights, capacities };
     let bench = context.bench((Assign::Brute, Test::Auto), case)?;
     let probe = bench.session.store.probe(&bench.variant, "selftest/loop.comp")?;

@@ -17,7 +17,8 @@ pub fn check(context: &mut Context) -> Result<Verdict> {
     let lights = rain(10)?;
     for clusters in SIZES {
         let grid = box_grid([clusters, 1, 1]);
-        let capacities = Capacities { visible_clusters: clusters, light_indices: 16, list_entries: 0 };
+        let capacities =
+            Capacities { visible_clusters: clusters, light_indices: 16, ..Capacities::default() };
         let case = Case { method: ORTHO, grid, lights: &lights, capacities };
         let bench = context.bench((Assign::Brute, Test::Auto), case)?;
         let fault = match compaction_fault(bench, clusters.into(), u64::from(clusters))? {

@@ -18,8 +18,11 @@ pub fn check(context: &mut Context) -> Result<Verdict> {
     for count in SIZES {
         let grid = box_grid([9, 7, 5]);
         let lights = random_lights(count, u64::from(count), 4.0, |u| 0.1 + u);
-        let capacities =
-            Capacities { visible_clusters: grid.cluster_count() as u32, light_indices: 16, list_entries: 0 };
+        let capacities = Capacities {
+            visible_clusters: grid.cluster_count() as u32,
+            light_indices: 16,
+            ..Capacities::default()
+        };
         let case = Case { method: ORTHO, grid, lights: &lights, capacities };
         let bench = context.bench((Assign::Hierarchy, Test::Auto), case)?;
         bench.compact(&random_bits(grid.cluster_count(), 1, 1))?;

@@ -58,7 +58,7 @@ impl fmt::Display for Growth {
 }
 
 fn capacities() -> Capacities {
-    Capacities { visible_clusters: 40_000, light_indices: 16, list_entries: 0 }
+    Capacities { visible_clusters: 40_000, light_indices: 16, ..Capacities::default() }
 }
 
 /// The times of stages grow with their own work.

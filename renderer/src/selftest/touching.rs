@@ -29,8 +29,11 @@ pub fn check(context: &mut Context) -> Result<Verdict> {
         let visible = cpu::compact(&fragments_of(&bits, clusters)).visible;
         let (touched, lights): (Vec<u32>, Vec<PointLight>) =
             touching_lights(&grid, &visible, 30.0, COUNT)?.into_iter().unzip();
-        let capacities =
-            Capacities { visible_clusters: clusters as u32, light_indices: 4_000_000, list_entries: 0 };
+        let capacities = Capacities {
+            visible_clusters: clusters as u32,
+            light_indices: 4_000_000,
+            ..Capacities::default()
+        };
         let case = Case { method, grid, lights: &lights, capacities };
         let bench = context.bench((Assign::Brute, Test::Named(test)), case)?;
         bench.compact(&bits)?;

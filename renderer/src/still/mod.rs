@@ -22,7 +22,7 @@ use crate::culling::Culling;
 use crate::engine::{Engine, FramePlan, LargestGrid, Mode, Session, count_frame, plan_frames};
 use crate::inputs::Inputs;
 use crate::measure::{FrameCounts, ViewPixels};
-use crate::methods::{Method, Scenery};
+use crate::methods::{Groups, Method, Scenery};
 use crate::output::PlannedRun;
 use crate::{Error, Result};
 use camera::Camera;
@@ -116,12 +116,17 @@ impl Show {
 
     /// Refuses what a method without clusters cannot show.
     fn check(&self, method: &Method) -> Result<()> {
-        if !method.has_lists() && (self.base != Base::Picture || self.missing) {
-            return Err(Error::input(format!(
+        let of_cells = matches!(self.base, Base::Clusters | Base::Slices) || self.missing;
+        match method.kind().groups {
+            Groups::Nothing if self.base != Base::Picture || self.missing => Err(Error::input(format!(
                 "show: {method} has no clusters: choose a clustered method, or show frusta and lights alone"
-            )));
+            ))),
+            Groups::Leaves if of_cells => Err(Error::input(format!(
+                "show: {method} has leaves of an octree, not clusters: choose a clustered method, or show octree, light-count or \
+                 fragment-count"
+            ))),
+            _ => Ok(()),
         }
-        Ok(())
     }
 }
 

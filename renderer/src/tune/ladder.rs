@@ -5,7 +5,7 @@
 //! that of one: fewer come first.
 
 use crate::config::{Config, Exclude};
-use crate::methods::Method;
+use crate::methods::{Method, Size, Unit};
 use crate::output::{PlannedRun, planned_runs};
 
 /// Parts of the named size, the largest first.
@@ -20,6 +20,9 @@ const LEAST_PIXELS: f64 = 4.0;
 /// The least size of metres.
 const LEAST_METRES: f64 = 0.25;
 
+/// The least size of radii of the smallest light.
+const LEAST_RADII: f64 = 0.25;
+
 /// Most cells along an axis.
 const MOST_CELLS: f64 = 64.0;
 
@@ -28,14 +31,15 @@ pub fn ladder(named: &Method) -> Vec<Method> {
     let (kind, sizes) = (named.kind(), named.sizes());
     let parts: &[f64] = if sizes.len() > 1 { &COARSE } else { &FINE };
     let steps = kind.sizes.iter().zip(&sizes).map(|(name, &size)| {
-        let mut steps: Vec<f64> = parts.iter().map(|&part| step(name, size, part)).collect();
+        let mut steps: Vec<Size> =
+            parts.iter().map(|&part| Size { number: step(name, size.number, part), ..size }).collect();
         steps.retain(|&step| makes_sense(name, step) || step == size);
         steps.dedup();
         steps
     });
     // The first size varies fastest.
-    let products = steps.fold(vec![vec![]], |products: Vec<Vec<f64>>, steps| {
-        let with = |step: f64| products.iter().map(move |sizes| [sizes.as_slice(), &[step]].concat());
+    let products = steps.fold(vec![vec![]], |products: Vec<Vec<Size>>, steps| {
+        let with = |step: Size| products.iter().map(move |sizes| [sizes.as_slice(), &[step]].concat());
         steps.iter().flat_map(|&step| with(step)).collect()
     });
     products.iter().filter(|sizes| kind.takes(sizes)).map(|sizes| kind.with_sizes(sizes)).collect()
@@ -47,12 +51,16 @@ fn step(name: &str, size: f64, part: f64) -> f64 {
 }
 
 /// Whether a size of this name is neither too small nor, of counts, too large.
-fn makes_sense(name: &str, size: f64) -> bool {
+fn makes_sense(name: &str, Size { number: size, unit }: Size) -> bool {
     match name {
         "CELLS" | "COLUMNS" => (1.0..=MOST_CELLS).contains(&size),
         // A screen has as many rows as its columns leave room for.
         "ROWS" => false,
         "PIXELS" => size >= LEAST_PIXELS,
+        // A tree's memory and the time to build it grow with the cube of what a radius holds of its nodes.
+        "SIZE" if unit == Unit::Own => size >= LEAST_RADII,
+        // Where descent begins changes neither lists nor counts.
+        "DEPTH" => false,
         _ => size >= LEAST_METRES,
     }
 }
@@ -102,6 +110,8 @@ mod tests {
         assert_eq!(names("g-1"), ["g-1", "g-2", "g-3", "g-4", "g-5", "g-8"]);
         assert_eq!(names("ortiz-64-9-1"), ["ortiz-32-9-2", "ortiz-64-9-2", "ortiz-32-9-1", "ortiz-64-9-1"]);
         assert_eq!(names("all-lights"), ["all-lights"]);
+        assert_eq!(names("hashed-0.5-3"), ["hashed-1-3", "hashed-0.5-3", "hashed-0.25-3"]);
+        assert_eq!(names("hashed-0.5m-3"), ["hashed-1m-3", "hashed-0.5m-3", "hashed-0.25m-3"]);
         let slices = ["sc-e-8-20", "sc-e-4-20", "sc-e-8-10", "sc-e-4-10", "sc-e-8-5", "sc-e-4-5"];
         assert_eq!(names("sc-e-4-10"), slices, "slices are whole");
     }

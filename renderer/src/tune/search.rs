@@ -117,7 +117,7 @@ fn same(a: &PlannedRun, b: &PlannedRun) -> bool {
         let Config { clusters, bounds, slices, .. } = run.config.clone();
         (run.assign, run.test, clusters, bounds, slices)
     };
-    a.method == b.method && (!a.method.has_lists() || ways(a) == ways(b))
+    a.method == b.method && (!a.method.assigns() || ways(a) == ways(b))
 }
 
 struct Candidates<'c> {

@@ -16,7 +16,7 @@ const ASKED: [&str; 5] = ["lights", "method", "clusters", "assign", "test"];
 
 /// `config` with the methods, ways and tests of `chosen` runs in place of its own, and rules that leave those runs alone.
 pub fn configuration(config: &Config, chosen: &[Config]) -> Config {
-    let listed: Vec<&Config> = chosen.iter().filter(|run| run.methods[0].has_lists()).collect();
+    let listed: Vec<&Config> = chosen.iter().filter(|run| run.methods[0].assigns()).collect();
     let mut whole =
         Config { methods: union(chosen.iter().map(|run| run.methods[0])), exclude: vec![], ..config.clone() };
     if !listed.is_empty() {

@@ -14,7 +14,7 @@ fn lists_of(
     let room = Capacities {
         visible_clusters: grid.cluster_count() as u32,
         light_indices: 6_000_000,
-        list_entries: 0,
+        ..Capacities::default()
     };
     let config = Config { assign: vec![assign], test: vec![test], ..config() };
     let mut bench = Bench::with_config(&config, method, grid, most, room);

@@ -100,7 +100,7 @@ fn bounds_equal_their_twin() {
         let room = Capacities {
             visible_clusters: grid.cluster_count() as u32,
             light_indices: 100_000,
-            list_entries: 0,
+            ..Capacities::default()
         };
         let method = method(name);
         let mut bench = Bench::with_config(&config, method, grid, &lights(50), room);
@@ -162,7 +162,7 @@ pub(super) fn with_clusters(
     let room = Capacities {
         visible_clusters: grid.cluster_count() as u32,
         light_indices: 6_000_000,
-        list_entries: 0,
+        ..Capacities::default()
     };
     let config = Config { clusters: vec![Clusters::Visible.into()], ..config.clone() };
     let mut bench = Bench::with_config(&config, method, grid, lights, room);

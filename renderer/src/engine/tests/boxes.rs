@@ -26,7 +26,7 @@ fn by_law(law: SliceLaw) -> Config {
 
 /// The boxes that the device makes of a grid.
 fn boxes(config: &Config, grid: Grid) -> Vec<ClusterBox> {
-    let room = Capacities { visible_clusters: 16, light_indices: 16, list_entries: 0 };
+    let room = Capacities { visible_clusters: 16, light_indices: 16, ..Capacities::default() };
     let mut bench = Bench::with_config(config, ORTIZ, grid, &lights(10), room);
     bench.run(|r, frame| build_boxes::record(r, frame, given()));
     let words = size_of::<ClusterBox>() / 4 * grid.cluster_count() as usize;
@@ -51,7 +51,7 @@ fn boxes_equal_their_twin() {
 /// A pose, and nothing else of a grid, is another: the boxes are those that are there.
 #[test]
 fn boxes_stay_where_the_camera_moves_and_follow_what_it_sees() {
-    let room = Capacities { visible_clusters: 60, light_indices: 600, list_entries: 0 };
+    let room = Capacities { visible_clusters: 60, light_indices: 600, ..Capacities::default() };
     let grid = frustum_grid([5, 4, 3]);
     let mut bench = Bench::with_config(&config(), ORTIZ, grid, &lights(10), room);
     let moved = Grid { pose: crate::geometry::views::Pose::IDENTITY, ..grid };
@@ -80,7 +80,7 @@ fn no_touching_light_is_lost_by_boxes() {
         let clusters: Vec<u32> = (0..grid.cluster_count() as u32).collect();
         let (touched, lights): (Vec<u32>, Vec<PointLight>) =
             touching_lights(&grid, &clusters, farthest, 4000).unwrap().into_iter().unzip();
-        let room = Capacities { visible_clusters: 600, light_indices: 3_000_000, list_entries: 0 };
+        let room = Capacities { visible_clusters: 600, light_indices: 3_000_000, ..Capacities::default() };
         let mut bench = Bench::new(ORTIZ, grid, &lights, room);
         bench.compact(&random_bits(grid.cluster_count(), 1, 5));
         let lists = bench.lists();

@@ -71,7 +71,7 @@ fn in_order(bench: &Bench, view: &View) -> Vec<u32> {
 }
 
 fn compare(scene: &str) {
-    let room = Capacities { visible_clusters: 16, light_indices: 16, list_entries: 0 };
+    let room = Capacities { visible_clusters: 16, light_indices: 16, ..Capacities::default() };
     let scene = by_name(scene).expect("a built-in scene");
     let few = lights(10);
     let case = Case { method: PERSP, grid: box_grid([8, 1, 1]), lights: &few, capacities: room };

@@ -48,7 +48,7 @@ struct Made {
 impl Scenario {
     fn bench(&self, assign: Assign, lists: ListStore, compaction: Compaction) -> Bench {
         let visible_clusters = self.grid.cluster_count() as u32;
-        let capacities = Capacities { visible_clusters, light_indices: 6_000_000, list_entries: 0 };
+        let capacities = Capacities { visible_clusters, light_indices: 6_000_000, ..Capacities::default() };
         let config = Config {
             assign: vec![assign],
             lists: vec![lists],
@@ -209,7 +209,7 @@ fn a_counter_gives_every_visible_cluster_a_place_of_its_own() {
 
 #[test]
 fn clusters_without_a_place_are_counted() {
-    let room = Capacities { visible_clusters: 100, light_indices: 16, list_entries: 0 };
+    let room = Capacities { visible_clusters: 100, light_indices: 16, ..Capacities::default() };
     let config = Config { compaction: vec![Compaction::Atomic], ..config() };
     let mut bench = Bench::with_config(&config, ORTHO, box_grid([5000, 1, 1]), &lights(10), room);
     let bits = random_bits(5000, 2, 9);

@@ -30,8 +30,11 @@ impl CulledDevice {
         let clusters = grid.cluster_count();
         let bits = random_bits(clusters, 7, 11);
         let visible = cpu::compact(&fragments_of(&bits, clusters)).visible;
-        let room =
-            Capacities { visible_clusters: clusters as u32, light_indices: 6_000_000, list_entries: 0 };
+        let room = Capacities {
+            visible_clusters: clusters as u32,
+            light_indices: 6_000_000,
+            ..Capacities::default()
+        };
         let test: Test = test.parse().unwrap();
         let config = Config { assign: vec![assign], test: vec![test], ..config() };
         let mut bench = Bench::with_config(&config, method, grid, lights, room);

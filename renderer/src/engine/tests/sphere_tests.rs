@@ -37,7 +37,7 @@ impl Case {
         let room = Capacities {
             visible_clusters: self.grid.cluster_count() as u32,
             light_indices: 8_000_000,
-            list_entries: 0,
+            ..Capacities::default()
         };
         let config = Config { test: vec![Test::Named(test)], ..config() };
         let mut bench = Bench::with_config(&config, method, self.grid, &self.lights, room);

@@ -9,7 +9,7 @@ use crate::passes::draws::{self, DepthUse, SurfacePass, SurfacePipelines};
 #[test]
 #[should_panic(expected = "shade/forward.frag: draws into [Radiance], its pass into []")]
 fn a_pass_whose_targets_are_not_those_of_its_pipelines_is_a_fault() {
-    let room = Capacities { visible_clusters: 16, light_indices: 16, list_entries: 0 };
+    let room = Capacities { visible_clusters: 16, light_indices: 16, ..Capacities::default() };
     Bench::new(PERSP, frustum_grid([2, 2, 2]), &lights(1), room).run(|r, frame| {
         let opaque = &frame.pipelines.shade[SurfaceKind::Opaque as usize];
         let pass = SurfacePass {

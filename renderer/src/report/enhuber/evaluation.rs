@@ -213,7 +213,7 @@ pub fn lights(count: u32) -> String {
 
 /// Whether the groups of a run's method are pieces of frusta.
 fn has_frusta(run: &&Run) -> bool {
-    run.method.kind().cells == Some(CellShape::Frustum)
+    run.method.kind().cells() == Some(CellShape::Frustum)
 }
 
 /// Whether a run is by the test of pieces of frusta, or by the one that its boxes have.

@@ -89,5 +89,5 @@ fn least(runs: &[&Run]) -> Option<Key> {
 }
 
 fn size(method: Method, place: usize) -> f64 {
-    method.sizes().get(place).copied().unwrap_or_default()
+    method.sizes().get(place).map_or(0.0, |size| size.number)
 }

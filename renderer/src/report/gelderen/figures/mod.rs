@@ -208,6 +208,7 @@ fn space_color(method: Method) -> Color {
         Method::AllLights => "black",
         Method::World(_) => "sky",
         Method::Models => "purple",
+        Method::Hashed(_) => "yellow",
         Method::Grid(grid) => match grid.space {
             Space::Persp { .. } => "blue",
             Space::Tiled { .. } | Space::Sliced { .. } | Space::Counted { .. } => "orange",

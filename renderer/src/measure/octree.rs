@@ -1,0 +1,66 @@
+//! What is told of the octree of a frame.
+
+use super::OctreeSizes;
+
+/// The octree over the lights of a frame.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct OctreeCounts {
+    /// How often the frame built it: 0 or 1.
+    pub rebuilds: u64,
+    /// Entries of its tables.
+    pub sizes: OctreeSizes,
+    /// Its tables, by depth.
+    pub tables: Vec<OctreeTable>,
+}
+
+/// What a table of an octree holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TableKind {
+    /// Branches, and what their children are.
+    Structure,
+    /// Filled leaves, and where their lists lie.
+    Data,
+}
+
+impl TableKind {
+    /// Its name in tables.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Structure => "structure",
+            Self::Data => "data",
+        }
+    }
+}
+
+/// One table of an octree: a perfect spatial hash.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct OctreeTable {
+    /// What it holds.
+    pub kind: TableKind,
+    /// Depth of the nodes that are its keys.
+    pub depth: u32,
+    /// How many keys are stored.
+    pub keys: u32,
+    /// Slots a side, m.
+    pub side: u32,
+    /// Offsets a side, r.
+    pub offset_side: u32,
+    /// Lights of all its leaves.
+    pub light_indices: u64,
+}
+
+impl OctreeTable {
+    /// What its slots take, bytes.
+    pub fn slot_bytes(&self) -> u64 {
+        let bytes = match self.kind {
+            TableKind::Structure => OctreeSizes::NODE_BYTES,
+            TableKind::Data => OctreeSizes::LEAF_BYTES,
+        };
+        bytes * u64::from(self.side).pow(3)
+    }
+
+    /// What its offsets take, bytes.
+    pub fn offset_bytes(&self) -> u64 {
+        OctreeSizes::OFFSET_BYTES * u64::from(self.offset_side).pow(3)
+    }
+}
