@@ -84,13 +84,16 @@ pub const SORT_DIGITS: u32 = 1 << SORT_BITS;
 /// Items that one thread of the sort takes.
 pub const SORT_BLOCK: u32 = 128;
 
+/// Most layers of an octree.
+pub const OCTREE_LAYERS: u32 = 24;
+
 /// Words that the self-test measures into.
 pub const MEASUREMENT_WORDS: u64 = 4096;
 
 /// How many 64-bit counters the atemporal run has: as many as [`DeviceCounts`] has fields.
 pub const COUNTER_COUNT: usize = DeviceCounts::NAMES.len();
 
-const CONSTANTS: [(&str, u32); 31] = [
+const CONSTANTS: [(&str, u32); 32] = [
     ("SET_BUFFERS", SET_BUFFERS),
     ("SET_MATERIAL", SET_MATERIAL),
     ("SET_DEPTH", SET_DEPTH),
@@ -122,6 +125,7 @@ const CONSTANTS: [(&str, u32); 31] = [
     ("SORT_BITS", SORT_BITS),
     ("SORT_DIGITS", SORT_DIGITS),
     ("SORT_BLOCK", SORT_BLOCK),
+    ("OCTREE_LAYERS", OCTREE_LAYERS),
 ];
 
 /// Textures of a material, by the names that shaders call them.

@@ -6,6 +6,7 @@ use manylight::config::{Config, FrameRange};
 use manylight::culling::Culling;
 use manylight::engine::{Engine, LargestGrid, Mode, Session, nothing, plan_frames};
 use manylight::inputs::Inputs;
+use manylight::lights::{GeneratorKind, Lighting};
 use manylight_tests::methods;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -83,4 +84,12 @@ fn frames_allocate_nothing() {
             assert_eq!(asked(&run, assigner), 0, "{name} {assigner} {clusters} {culling:?}");
         }
     }
+    // An octree is built anew where lights have moved.
+    let run = Config {
+        methods: methods(&["hashed-1m-3"]),
+        light_source: GeneratorKind::Gamma,
+        lights: vec![Lighting::with_count(200)],
+        ..config
+    };
+    assert_eq!(asked(&run, Assigner::Brute), 0, "an octree over lights that stay");
 }

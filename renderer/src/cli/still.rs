@@ -6,7 +6,7 @@ use crate::inputs::Inputs;
 use crate::output::{planned_runs, prepare_output, write_exr, write_png};
 use crate::replay::shape_note;
 use crate::still::camera::BIRDSEYE;
-use crate::still::{Item, Placed, Show, Still, Viewpoint, render};
+use crate::still::{Item, Placed, Show, Still, TablePicture, Viewpoint, render};
 use crate::{Error, Result};
 use serde::Serialize;
 use std::fmt;
@@ -69,6 +69,9 @@ pub fn run(args: Args, console: &Console) -> Result<()> {
     let [png, exr] = ["png", "exr"].map(|extension| config.out.join(format!("{stem}.{extension}")));
     write_png(&png, &still.image)?;
     write_exr(&exr, std::slice::from_ref(&still.pixels), config.exr_layout)?;
+    for TablePicture { depth, image } in &still.tables {
+        write_png(&config.out.join(format!("{stem}_hash-{depth}.png")), image)?;
+    }
     console.result(&Written::new(&still, run.method.to_string(), [png, exr]))
 }
 

@@ -1,6 +1,5 @@
 //! What the host writes for each frame before it is recorded: grids, views, what is drawn, lights.
 
-use super::octree::HostOctree;
 use super::{Engine, FramePlan, Session};
 use crate::Result;
 use crate::buffers::BufferName;
@@ -41,7 +40,7 @@ impl Engine {
 
     /// Slots for leaves of the octree, in a row; nothing without one.
     fn row_of_leaves(&self) -> [u32; 3] {
-        match self.octree.as_ref().and_then(HostOctree::octree) {
+        match self.octree() {
             Some(octree) => [hashed::table_sizes(octree).leaves.max(1), 1, 1],
             None => [0; 3],
         }

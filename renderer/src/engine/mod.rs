@@ -40,6 +40,7 @@ use crate::layouts::Pipeline;
 use crate::lights::FrameLights;
 use crate::measure::{ClusteringCounts, FrameCounts, GrowthEvent, OctreeCounts, StructureMemory};
 use crate::methods::{GridBox, Method};
+use crate::octree::LinklessOctree;
 use crate::pass::{Recorder, ScopeTree, Timed};
 use crate::passes::{Draws, Frame};
 use crate::pipelines::Pipelines;
@@ -176,6 +177,11 @@ impl Engine {
     /// Cells of a clustering's grid along each axis, in the frame written last.
     pub fn dimensions(&self, clustering: usize) -> [u32; 3] {
         self.clusterings[clustering].dimensions
+    }
+
+    /// The octree of the frame written last; `None` where the method has none.
+    pub fn octree(&self) -> Option<&LinklessOctree> {
+        self.octree.as_ref().and_then(HostOctree::octree)
     }
 
     /// What is told of the octree of the frame written last; `None` where the method has none.

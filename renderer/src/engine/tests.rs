@@ -102,6 +102,7 @@ mod boxes;
 mod cull;
 mod list_stores;
 mod list_twins;
+mod octree;
 mod sphere_tests;
 mod targets;
 

@@ -74,7 +74,7 @@ pub(super) enum Child {
 }
 
 /// The child x + 2y + 4z of a node whose slot is `bits`.
-fn child_of(bits: u16, child: usize) -> Child {
+pub(super) fn child_of(bits: u16, child: usize) -> Child {
     match (bits >> child & 1 != 0, bits >> (8 + child) & 1 != 0) {
         (false, _) => Child::Branch,
         (true, false) => Child::Empty,
@@ -112,7 +112,7 @@ impl LinklessOctree {
     }
 
     /// The slot of a key, among all slots of the table's kind.
-    fn slot(&self, table: &HashTable, key: UVec3) -> usize {
+    pub(super) fn slot(&self, table: &HashTable, key: UVec3) -> usize {
         let [x, y, z, _] = self.offsets[table.offsets as usize + offset_index(key, table.offset_side)];
         table.slots as usize + slot_index(key, table.side, U8Vec3::new(x, y, z))
     }

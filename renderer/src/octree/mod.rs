@@ -24,6 +24,7 @@ mod linkless;
 mod memory;
 pub mod perfect_hash;
 mod settings;
+mod stored;
 mod top_down;
 mod tree;
 
@@ -33,6 +34,7 @@ pub use geometry::OctreeGeometry;
 pub use linkless::{HashTable, Layer, LinklessOctree};
 pub use memory::{LayerMemory, TableMemory};
 pub use settings::{OctreeError, OctreeLimits, OctreeSettings, Route, Sphere};
+pub use stored::{StoredKind, StoredNode};
 
 #[cfg(test)]
 mod tests;

@@ -44,7 +44,7 @@ pub(super) fn manifest() -> Manifest {
         },
         doubts: vec!["others were at work".into()],
         timing: None,
-        capacities: Capacities { visible_clusters: 1, light_indices: 2, list_entries: 0 },
+        capacities: Capacities { visible_clusters: 1, light_indices: 2, ..Capacities::default() },
         memory_bytes: Some(memory().iter().map(|structure| structure.allocated).sum()),
         growth: vec![GrowthEvent {
             frame: 40,

@@ -27,6 +27,9 @@ pub fn record(r: &mut Recorder, frame: &Frame, (clustering, view): (usize, usize
 
 /// Counts the fragments of each visible cluster, or of each leaf of an octree, of all views; atemporal runs alone, after the frame.
 pub fn count_fragments(r: &mut Recorder, frame: &Frame, clustering: usize) {
+    if frame.octree.as_ref().is_some_and(|octree| octree.sizes.leaves == 0) {
+        return;
+    }
     let this = &frame.clusterings[clustering];
     r.clear(&this.buffers[B::VisibleFragments]);
     let found = (frame.group_places(), set(&[B::VisibleFragments]));

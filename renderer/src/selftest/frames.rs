@@ -10,8 +10,8 @@ use crate::pass::Faults;
 use crate::{config::FrameRange, methods::Method};
 
 /// Brute force over all lights, the truth, the six methods of the default replay, tiles, and what else is done with clusters:
-/// all of them or visible ones, by their samples; cells of the world, and models.
-pub const METHODS: [&str; 12] = [
+/// all of them or visible ones, by their samples; cells of the world, models, and leaves of an octree.
+pub const METHODS: [&str; 13] = [
     "all-lights",
     "indi-persp-64",
     "encl-persp-64",
@@ -24,6 +24,7 @@ pub const METHODS: [&str; 12] = [
     "sc-e-48-40",
     "g-20",
     "m",
+    "hashed-0.5-3",
 ];
 
 /// The frame of the recording, and pixels of a view: those of the golden counts.

@@ -11,11 +11,13 @@
 
 pub(crate) mod camera;
 mod compose;
+mod hash_tables;
 mod onlooker;
 mod record;
 mod shapes;
 
 pub use camera::{Placed, Viewpoint};
+pub use hash_tables::TablePicture;
 
 use crate::config::Config;
 use crate::culling::Culling;
@@ -47,6 +49,10 @@ pub enum Item {
     FragmentCount,
     /// Magenta where no visible cluster exists.
     Missing,
+    /// Leaves of the octree that hold lights, of each depth in its own colour.
+    Octree,
+    /// Beside the picture, one of the hash tables of each depth of the octree: slots that are taken, offsets as colours.
+    Hash,
 }
 
 /// What the surfaces of a still show.
@@ -76,6 +82,10 @@ pub struct Show {
     pub lights: bool,
     /// Magenta where there is no cluster.
     pub missing: bool,
+    /// Lines of the octree's leaves.
+    pub octree: bool,
+    /// Whether the octree's tables are pictured too.
+    pub hash: bool,
 }
 
 impl Show {
@@ -103,6 +113,14 @@ impl Show {
                     show.missing = true;
                     continue;
                 }
+                Item::Octree => {
+                    show.octree = true;
+                    continue;
+                }
+                Item::Hash => {
+                    show.hash = true;
+                    continue;
+                }
             };
             if show.base != Base::Picture && show.base != base {
                 return Err(Error::input(
@@ -114,7 +132,7 @@ impl Show {
         Ok(show)
     }
 
-    /// Refuses what a method without clusters cannot show.
+    /// Refuses what a method without clusters, or without an octree, cannot show.
     fn check(&self, method: &Method) -> Result<()> {
         let of_cells = matches!(self.base, Base::Clusters | Base::Slices) || self.missing;
         match method.kind().groups {
@@ -124,6 +142,9 @@ impl Show {
             Groups::Leaves if of_cells => Err(Error::input(format!(
                 "show: {method} has leaves of an octree, not clusters: choose a clustered method, or show octree, light-count or \
                  fragment-count"
+            ))),
+            Groups::Nothing | Groups::Cells(_) if self.octree || self.hash => Err(Error::input(format!(
+                "show: {method} has no octree: choose a method such as hashed-0.5-3, or leave octree and hash out"
             ))),
             _ => Ok(()),
         }
@@ -140,6 +161,8 @@ pub struct Still {
     pub pixels: ViewPixels,
     /// The frame's counters: those of a replay.
     pub counts: FrameCounts,
+    /// Pictures of the octree's tables, by depth, where they are shown.
+    pub tables: Vec<TablePicture>,
 }
 
 /// Renders the first frame of `run` and looks at it from `viewpoint`.
@@ -205,7 +228,8 @@ fn paint(onlooker: &Onlooker, inputs: &Inputs, session: &mut Session, run: &Plan
     let mut no_lists = |_| Ok(());
     let frame = count_frame(&mut engine, session, (plan, lights), about, &mut no_lists)?;
     let Seen { image, pixels } = onlooker.look(session, &mut engine, &mode, frame.pixels)?;
-    Ok(Still { view: pixels.name.clone(), image, pixels, counts: frame.counts })
+    let tables = engine.octree().filter(|_| onlooker.show.hash).map_or_else(Vec::new, hash_tables::pictures);
+    Ok(Still { view: pixels.name.clone(), image, pixels, counts: frame.counts, tables })
 }
 
 #[cfg(test)]
@@ -215,10 +239,15 @@ mod tests {
     #[test]
     fn items_add_up_unless_they_exclude_each_other() {
         let show = Show::from_items(&[Item::Clusters, Item::Frusta, Item::Missing]).unwrap();
-        assert_eq!(show, Show { base: Base::Clusters, frusta: true, lights: false, missing: true });
+        assert_eq!(show, Show { base: Base::Clusters, frusta: true, missing: true, ..Show::default() });
         assert!(Show::from_items(&[Item::Clusters, Item::LightCount]).is_err());
         assert!(Show::from_items(&[Item::Clusters, Item::Slices]).is_err());
         assert!(show.check(&Method::AllLights).is_err());
+        let hashed: Method = "hashed-0.5-3".parse().unwrap();
+        let leaves = Show::from_items(&[Item::LightCount, Item::Octree, Item::Hash]).unwrap();
+        assert!(leaves.check(&hashed).is_ok() && show.check(&hashed).is_err());
+        assert!(leaves.check(&"indi-persp-64".parse().unwrap()).is_err());
+        assert!(Show::from_items(&[Item::Octree]).unwrap().check(&Method::AllLights).is_err());
         assert!(Show::from_items(&[Item::Frusta, Item::Lights]).unwrap().check(&Method::AllLights).is_ok());
     }
 }

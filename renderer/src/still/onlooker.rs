@@ -95,7 +95,7 @@ impl<'a> Onlooker<'a> {
         (pipelines, eye): (&DebugPipelines, &View),
         mut shaded: Vec<ViewPixels>,
     ) -> Result<Layers> {
-        let clustered = !self.plan.grids.is_empty();
+        let grouped = engine.method().has_lists();
         let origin = self.plan.origin();
         let sharing = engine.method().kind().sharing;
         let all: Vec<usize> = (0..sharing.clusterings(self.plan.views.len())).collect();
@@ -111,7 +111,10 @@ impl<'a> Onlooker<'a> {
                 (0, 1, all)
             }
         };
-        let lines = if self.show.frusta { self.frusta(origin) } else { vec![] };
+        let mut lines = if self.show.frusta { self.frusta(origin) } else { vec![] };
+        if let Some(octree) = engine.octree().filter(|_| self.show.octree) {
+            lines.extend(shapes::leaves(octree, origin));
+        }
         let line_buffer = (!lines.is_empty())
             .then(|| {
                 Buffer::with_data(&session.context, "lines", vk::BufferUsageFlags::VERTEX_BUFFER, &lines)
@@ -127,7 +130,7 @@ impl<'a> Onlooker<'a> {
         let drawing = Drawing {
             pipelines,
             view,
-            lookup: clustered.then_some(lookup),
+            lookup: grouped.then_some(lookup),
             clusterings,
             lines: line_buffer.as_ref().map(|buffer| (buffer, lines.len() as u32)),
             spheres: self.show.lights,
@@ -141,7 +144,7 @@ impl<'a> Onlooker<'a> {
         let mut clusterings: Vec<Vec<PixelData>> =
             known.iter().map(|buffer| buffer.read(0, pixels)).collect();
         let distance = clusterings[0].iter().map(|pixel| pixel.distance).collect();
-        if !clustered {
+        if !grouped {
             clusterings.clear();
         }
         let shaded = match self.camera {

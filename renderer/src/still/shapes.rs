@@ -2,6 +2,7 @@
 
 use crate::geometry::views::{Pose, View};
 use crate::geometry::{ClusterSpace, Grid};
+use crate::octree::{LinklessOctree, StoredKind};
 use crate::pipelines::Line;
 use glam::DVec3;
 
@@ -41,6 +42,30 @@ pub fn frusta(views: &[View], grids: &[Grid]) -> Vec<Line> {
     lines
 }
 
+/// The edges of an octree's leaves with lights, relative to `origin`; of each depth in a hue of its own.
+pub fn leaves(octree: &LinklessOctree, origin: DVec3) -> Vec<Line> {
+    let frame = &octree.frame;
+    let pose = Pose::from_position(frame.origin - origin);
+    let mut lines = vec![];
+    for leaf in octree.stored_nodes().iter().filter(|node| node.kind == StoredKind::Leaf) {
+        let edge = frame.edge(leaf.depth);
+        let low = leaf.cell.as_dvec3() * edge;
+        let corner = |i: usize| low + edge * DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64);
+        edges(&mut lines, &pose, &std::array::from_fn(corner), hue(frame.depth - leaf.depth));
+    }
+    lines
+}
+
+/// A saturated colour for leaves so many depths above the deepest, far from those of its neighbours.
+fn hue(above: u32) -> [f32; 3] {
+    // Each turn of the golden ratio lies where the earlier ones left most room.
+    let turn = (f64::from(above) * 0.618_033_988_75).fract();
+    [0.0, 2.0 / 3.0, 1.0 / 3.0].map(|shift| {
+        let distance = ((turn + shift).fract() - 0.5).abs();
+        (6.0 * distance - 1.0).clamp(0.02, 1.0) as f32
+    })
+}
+
 fn edges(lines: &mut Vec<Line>, pose: &Pose, corners: &[DVec3; 8], tint: [f32; 3]) {
     lines.extend(EDGES.iter().map(|&(a, b)| line(pose, (corners[a], corners[b]), tint)));
 }
@@ -68,6 +93,26 @@ mod tests {
         }
         let lengths = lines.iter().map(|line| glam::Vec3::from(line.from).distance(line.to.into()));
         assert!(lengths.into_iter().all(|length| length < 32.0), "no edge is a diagonal of the far plane");
+    }
+
+    #[test]
+    fn leaves_are_boxes_of_their_depth() {
+        use crate::octree::{OctreeSettings, Sphere};
+        let light = Sphere { centre: DVec3::splat(1.0), radius: 4.0 };
+        let octree = LinklessOctree::build(&[light], &OctreeSettings::new(1.0, 0)).unwrap().octree;
+        let origin = DVec3::new(100.0, 0.0, 0.0);
+        let lines = leaves(&octree, origin);
+        let filled: u32 = octree.layers.iter().filter_map(|layer| layer.data).map(|data| data.keys).sum();
+        assert_eq!(lines.len(), 12 * filled as usize);
+        for line in &lines {
+            let [from, to] = [line.from, line.to].map(|end| glam::Vec3::from(end).as_dvec3() + origin);
+            let edge = from.distance(to).round();
+            assert!([1.0, 2.0, 4.0].contains(&edge), "{edge}");
+            let middle = 0.5 * (from + to);
+            assert!(middle.distance(light.centre) < light.radius + edge * 3f64.sqrt(), "{middle}");
+        }
+        let hues: std::collections::BTreeSet<_> = (0..6).map(|above| hue(above).map(f32::to_bits)).collect();
+        assert_eq!(hues.len(), 6, "depths are told apart");
     }
 
     #[test]

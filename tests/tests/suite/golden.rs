@@ -72,7 +72,7 @@ fn street() {
 fn hall() {
     // They reach two metres: those of outdoors would light all of the hall at once.
     let lighting = Lighting { count: 1000, intensity: 2.0, cutoff: 0.5, r0: 0.1 };
-    golden(&["encl-persp-64", "indi-ortho-4"], ["hall", "hall-vive"], lighting, 580);
+    golden(&["encl-persp-64", "indi-ortho-4", "hashed-0.5-3"], ["hall", "hall-vive"], lighting, 580);
 }
 
 #[test]

@@ -70,7 +70,8 @@ fn lists_have_what_is_needed(run: &Run, lights: &[PointLight]) -> usize {
         let of_view = &lists[number % lists.len()];
         for pixel in 0..view.depth.len() {
             let Some(place) = place(view, pixel) else { continue };
-            let list = of_view[&view.cluster_index[pixel]];
+            // Where no leaf of an octree is, no light may be needed.
+            let list = of_view.get(&view.cluster_index[pixel]).copied().unwrap_or_default();
             let reaches = |light: &PointLight| {
                 // Depth that was rounded on the way here is off by less than this.
                 let distance = DVec3::from_array(light.position.map(f64::from)).distance(place);

@@ -20,7 +20,7 @@ mod tests {
 
     #[test]
     fn all_clusters_of_the_largest_grid_have_room() {
-        let first = Capacities { visible_clusters: 16, light_indices: 99, list_entries: 0 };
+        let first = Capacities { visible_clusters: 16, light_indices: 99, ..Capacities::default() };
         assert_eq!(capacities(1000, Clusters::Visible, first), first);
         assert_eq!(capacities(1000, Clusters::All, first), Capacities { visible_clusters: 1000, ..first });
         assert_eq!(capacities(u64::MAX, Clusters::All, first).visible_clusters, u32::MAX);

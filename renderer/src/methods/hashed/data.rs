@@ -1,12 +1,9 @@
 //! An octree as the device sees it.
 
-use crate::gpu_interface::{HashData, OctreeData, OctreeLayer};
+use crate::gpu_interface::{HashData, OCTREE_LAYERS, OctreeData, OctreeLayer};
 use crate::measure::{OctreeSizes, OctreeTable, TableKind};
-use crate::octree::{HashTable, LinklessOctree};
+use crate::octree::{HashTable, LinklessOctree, MOST_DEPTH};
 use glam::DVec3;
-
-/// Most layers of an octree on the device.
-pub const MOST_LAYERS: usize = 24;
 
 /// What rounding may cost for each metre that positions lie from the frame's origin: the worst of all roundings together, as for
 /// grids in the world.
@@ -72,7 +69,7 @@ pub fn data(octree: &LinklessOctree, origin: DVec3) -> OctreeData {
         depth: frame.depth,
         start_depth: frame.start_depth,
         cells: f64::from(frame.depth).exp2() as f32,
-        layers: [OctreeLayer::default(); MOST_LAYERS],
+        layers: [OctreeLayer::default(); OCTREE_LAYERS as usize],
     };
     for (layer, found) in data.layers.iter_mut().zip(&octree.layers) {
         *layer =
@@ -89,4 +86,4 @@ fn hash(table: &HashTable) -> HashData {
     HashData { slots, side, offsets, offset_side }
 }
 
-const _: () = assert!(crate::octree::MOST_DEPTH as usize <= MOST_LAYERS);
+const _: () = assert!(MOST_DEPTH <= OCTREE_LAYERS);

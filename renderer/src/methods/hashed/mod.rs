@@ -13,7 +13,7 @@
 
 mod data;
 
-pub use data::{MOST_LAYERS, data, slack, table_sizes, told_tables};
+pub use data::{data, slack, table_sizes, told_tables};
 
 use super::{Method, Size, Unit};
 use crate::lights::PointLight;

@@ -1,0 +1,161 @@
+//! Octrees over the lights: built where these have changed and nowhere else, what is told of them, and what is refused.
+
+use manylight::assign::Marking;
+use manylight::config::{Config, FrameRange};
+use manylight::lights::{GeneratorKind, Lighting};
+use manylight::measure::FrameTimes;
+use manylight_tests::{Run, assert_equal_the_truth, manylight, methods, run, three_frames};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Static lights in the hall.
+fn hall(names: &[&str]) -> Config {
+    Config {
+        scene: "hall".into(),
+        light_source: GeneratorKind::Gamma,
+        lights: vec![Lighting::with_count(300)],
+        ..three_frames("hall", 1, Marking::Depth, names)
+    }
+}
+
+fn rebuilds(run: &Run) -> Vec<u64> {
+    run.counts.iter().map(|counts| counts.octree_rebuilds()).collect()
+}
+
+/// The steps of building an octree, each a stage.
+const STEPS: [&str; 5] = ["empty_octree", "light_octrees", "add_lights", "merge_nodes", "hash_layers"];
+
+/// CPU milliseconds of the steps of building, and GPU milliseconds of the upload, of a frame.
+fn building(frame: &FrameTimes) -> [f64; 2] {
+    let stage = |name: &str| {
+        let path = format!("frame/octree/{name}");
+        let found = frame.stages.iter().find(|stage| stage.stage == path);
+        found.unwrap_or_else(|| panic!("{path} is no stage of {:?}", frame.stages))
+    };
+    [STEPS.iter().map(|step| stage(step).cpu_ms).sum(), stage("upload").gpu_ms]
+}
+
+#[test]
+fn lights_that_stay_cost_a_frame_nothing() {
+    let runs = run(Config { runs: 1.into(), ..hall(&["all-lights", "hashed-0.5m-3", "hashed-0.5m-0"]) });
+    assert_equal_the_truth(&runs, Marking::Depth);
+    for run in &runs[1..] {
+        assert_eq!(rebuilds(run), [1, 0, 0]);
+        // The frame that warms up has built it.
+        assert!(run.times.iter().all(|frame| building(frame) == [0.0, 0.0]), "{:?}", run.times);
+    }
+    let [shallow, deep] = [&runs[2], &runs[1]]
+        .map(|run| run.counts.iter().map(|counts| counts.counters.lighting_computations).collect::<Vec<_>>());
+    assert_eq!(shallow, deep, "where lookups begin changes no list");
+}
+
+#[test]
+fn lights_that_move_have_an_octree_of_their_own_in_each_frame() {
+    let names = ["all-lights", "hashed-1-3", "hashed-4m-2"];
+    let runs =
+        run(Config { runs: 1.into(), msaa: 4, ..three_frames("bistro-vive", 4, Marking::Depth, &names) });
+    assert_equal_the_truth(&runs, Marking::Depth);
+    for run in &runs[1..] {
+        assert_eq!(rebuilds(run), [1, 1, 1]);
+        // The frame that warms up has built that of the first.
+        let built = run.times.iter().skip(1).map(building);
+        assert!(built.into_iter().all(|[cpu, gpu]| cpu > 0.0 && gpu > 0.0), "{:?}", run.times);
+        let whole = run.times.iter().all(|frame| frame.stages[0].cpu_ms >= building(frame)[0]);
+        assert!(whole, "a frame takes as long as building at least");
+    }
+}
+
+/// The rows of a table, by column.
+fn rows(path: &Path) -> Vec<BTreeMap<String, String>> {
+    csv::Reader::from_path(path).unwrap().deserialize().collect::<Result<_, _>>().unwrap()
+}
+
+#[test]
+fn tables_tell_what_an_octree_takes() {
+    let out = tempfile::tempdir().unwrap();
+    let mut command = manylight();
+    command.args([
+        "replay",
+        "--scene",
+        "hall",
+        "--recording",
+        "hall",
+        "--light-source",
+        "gamma",
+        "--lights",
+        "200",
+    ]);
+    command.args([
+        "--method",
+        "hashed-0.5m-2",
+        "--frames",
+        "100..581/240",
+        "--resolution",
+        "32x20",
+        "--runs",
+        "1",
+        "--out",
+    ]);
+    assert!(command.arg(out.path()).status().unwrap().success());
+    let run = out.path().join("hashed-0.5m-2");
+    let tables = rows(&run.join("octree.csv"));
+    let sum = |table: &str, column: &str| -> u64 {
+        let found = tables.iter().filter(|row| row["table"] == table);
+        found.map(|row| row[column].parse::<u64>().unwrap()).sum()
+    };
+    assert!(tables.iter().all(|row| row["frame"] == "100"), "one frame built one");
+    let (offsets, slots) = (
+        ["structure", "data"].map(|t| sum(t, "offset_bytes")),
+        ["structure", "data"].map(|t| sum(t, "slot_bytes")),
+    );
+    let indices = sum("data", "light_indices");
+    let told: u64 = offsets.iter().sum::<u64>() + slots.iter().sum::<u64>() + 4 * indices;
+    let frames = rows(&run.join("frames.csv"));
+    let of_frames = |column: &str| frames.iter().map(|row| row[column].clone()).collect::<Vec<_>>();
+    assert_eq!(of_frames("octree_rebuilds"), ["1", "0", "0"]);
+    assert_eq!(of_frames("octree_bytes"), [told.to_string(), told.to_string(), told.to_string()]);
+    assert_eq!(of_frames("visible_clusters")[0], sum("data", "keys").to_string());
+    let memory = rows(&run.join("memory.csv"));
+    let held = |name: &str| memory.iter().find(|row| row["structure"] == name).unwrap()["allocated"].clone();
+    assert_eq!(held("octree_nodes"), slots[0].to_string());
+    assert_eq!(held("octree_leaves"), slots[1].to_string());
+    assert_eq!(held("octree_offsets"), (offsets[0] + offsets[1]).to_string());
+    assert_eq!(held("octree_indices"), (4 * indices).to_string());
+}
+
+#[test]
+fn what_no_octree_holds_is_refused_in_one_line() {
+    for (name, code, words) in [
+        ("hashed-0.00001m-3", 3, "error: 1 of 1 runs failed, each left its <run>.error.json; the first was"),
+        ("hashed-1-8", 2, "method hashed-1-8: lookups begin at depth 7 at most"),
+        ("hashed-0-3", 2, "did you mean 'hashed-0.5-3'?"),
+        ("hashed-2-3m", 2, "SIZE"),
+    ] {
+        let mut command = manylight();
+        let out = tempfile::tempdir().unwrap();
+        command.args([
+            "replay",
+            "--method",
+            name,
+            "--frames",
+            "300",
+            "--resolution",
+            "32x20",
+            "--lights",
+            "20",
+            "--out",
+        ]);
+        let output = command.arg(out.path()).output().unwrap();
+        let told = String::from_utf8(output.stderr).unwrap();
+        let error = told.lines().filter(|line| line.contains(words)).count();
+        assert_eq!((output.status.code(), error), (Some(code), 1), "{name}: {told}");
+    }
+}
+
+#[test]
+fn frames_without_lights_are_dark_and_right() {
+    let frames = FrameRange { first: 300, end: Some(301), step: 1 };
+    let lights = vec![Lighting::with_count(0)];
+    let runs = run(Config { lights, frames, methods: methods(&["all-lights", "hashed-0.5-3"]), ..hall(&[]) });
+    assert_equal_the_truth(&runs, Marking::Depth);
+}
