@@ -86,9 +86,9 @@ fn frames_allocate_nothing() {
     }
     // An octree is built anew where lights have moved.
     let run = Config {
-        methods: methods(&["hashed-1m-3"]),
-        light_source: GeneratorKind::Gamma,
-        lights: vec![Lighting::with_count(200)],
+        methods: methods(&["hashed-1-3"]),
+        light_source: GeneratorKind::Volume,
+        lights: vec![Lighting { intensity: 2.0, ..Lighting::with_count(200) }],
         ..config
     };
     assert_eq!(asked(&run, Assigner::Brute), 0, "an octree over lights that stay");

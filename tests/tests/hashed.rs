@@ -8,12 +8,12 @@ use manylight_tests::{Run, assert_equal_the_truth, manylight, methods, run, thre
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Static lights in the hall.
+/// Static lights in the hall, which reach two metres.
 fn hall(names: &[&str]) -> Config {
     Config {
         scene: "hall".into(),
-        light_source: GeneratorKind::Gamma,
-        lights: vec![Lighting::with_count(300)],
+        light_source: GeneratorKind::Volume,
+        lights: vec![Lighting { intensity: 2.0, ..Lighting::with_count(1500) }],
         ..three_frames("hall", 1, Marking::Depth, names)
     }
 }
@@ -37,7 +37,7 @@ fn building(frame: &FrameTimes) -> [f64; 2] {
 
 #[test]
 fn lights_that_stay_cost_a_frame_nothing() {
-    let runs = run(Config { runs: 1.into(), ..hall(&["all-lights", "hashed-0.5m-3", "hashed-0.5m-0"]) });
+    let runs = run(Config { runs: 1.into(), ..hall(&["all-lights", "hashed-0.5-3", "hashed-0.5-0"]) });
     assert_equal_the_truth(&runs, Marking::Depth);
     for run in &runs[1..] {
         assert_eq!(rebuilds(run), [1, 0, 0]);
@@ -81,13 +81,13 @@ fn tables_tell_what_an_octree_takes() {
         "--recording",
         "hall",
         "--light-source",
-        "gamma",
+        "volume",
         "--lights",
-        "200",
+        "200,2",
     ]);
     command.args([
         "--method",
-        "hashed-0.5m-2",
+        "hashed-0.5-2",
         "--frames",
         "100..581/240",
         "--resolution",
@@ -97,7 +97,7 @@ fn tables_tell_what_an_octree_takes() {
         "--out",
     ]);
     assert!(command.arg(out.path()).status().unwrap().success());
-    let run = out.path().join("hashed-0.5m-2");
+    let run = out.path().join("hashed-0.5-2");
     let tables = rows(&run.join("octree.csv"));
     let sum = |table: &str, column: &str| -> u64 {
         let found = tables.iter().filter(|row| row["table"] == table);
@@ -121,6 +121,27 @@ fn tables_tell_what_an_octree_takes() {
     assert_eq!(held("octree_leaves"), slots[1].to_string());
     assert_eq!(held("octree_offsets"), (offsets[0] + offsets[1]).to_string());
     assert_eq!(held("octree_indices"), (4 * indices).to_string());
+}
+
+#[test]
+fn every_way_makes_octrees_with_the_same_lists() {
+    let frames = FrameRange { first: 300, end: Some(301), step: 1 };
+    let octree = ["rebuild", "seed-7", "shared"].map(|way| way.parse().unwrap()).to_vec();
+    let runs = run(Config { octree, frames, ..hall(&["all-lights", "hashed-0.5-3"]) });
+    assert_eq!(runs.len(), 4, "a run a way");
+    assert_equal_the_truth(&runs, Marking::Depth);
+    let told = |run: &Run| {
+        let counts = &run.counts[0];
+        (counts.counters.lighting_computations, counts.visible_clusters(), counts.light_indices())
+    };
+    assert!(runs[2..].iter().all(|run| told(run) == told(&runs[1])));
+    let [rebuilt, seeded, shared] = [1, 2, 3].map(|run| runs[run].counts[0].octree_bytes());
+    assert!(
+        rebuilt.abs_diff(seeded) * 100 <= rebuilt,
+        "a seed changes no more than chance: {rebuilt}, {seeded}"
+    );
+    assert!(shared < rebuilt, "what is shared takes less: {shared}, {rebuilt}");
+    assert_ne!(runs[1].lists[0].indices, runs[2].lists[0].indices, "leaves lie in other slots");
 }
 
 #[test]

@@ -57,7 +57,7 @@ pub struct Axis {
 }
 
 /// Every axis: of the product the first varies slowest.
-pub static AXES: [Axis; 12] = [
+pub static AXES: [Axis; 13] = [
     Axis {
         name: "scene",
         description: "The scene as the configuration has it, or its file's name without extension; `*` stands for any \
@@ -221,6 +221,18 @@ pub static AXES: [Axis; 12] = [
         split: |config| each(&config.compaction, |way| Config { compaction: vec![way], ..config.clone() }),
         called: |run| vec![names(&run.compaction)],
         label: |run, _| names(&run.compaction),
+    },
+    Axis {
+        name: "octree",
+        description: "How octrees are made; `*` stands for any text.",
+        column: "octree",
+        role: Role::Way,
+        values: Values::Names,
+        applies: Method::has_octree,
+        count: |config| config.octree.len(),
+        split: |config| each(&config.octree, |way| Config { octree: vec![way], ..config.clone() }),
+        called: |run| vec![names(&run.octree)],
+        label: |run, _| names(&run.octree),
     },
 ];
 

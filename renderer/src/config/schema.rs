@@ -124,6 +124,14 @@ pub(super) fn compaction(_: &mut SchemaGenerator) -> Schema {
     names_of(Compaction::value_variants())
 }
 
+pub(super) fn octree(_: &mut SchemaGenerator) -> Schema {
+    one_or_several(&json_schema!({
+        "type": "string",
+        "pattern": "^(rebuild|seed-[0-9]+|shared)$",
+        "examples": ["rebuild", "seed-7", "shared"]
+    }))
+}
+
 fn choices_of<T: Copy + std::fmt::Display>(values: &[T]) -> Schema {
     let named = values.iter().map(|&value| Choice::Named(value));
     names_of(&[Choice::Auto].into_iter().chain(named).collect::<Vec<_>>())

@@ -12,7 +12,7 @@ use crate::geometry::{DisplacedVolume, SliceLaw, SphereTest};
 use crate::lights::{Attenuation, GeneratorKind, LatticeBox, LightBox, LightMotion, LightSet, Lighting};
 use crate::material::MaterialModel;
 use crate::measure::Order;
-use crate::methods::{GridBox, KINDS, Method, Sharing, Space};
+use crate::methods::{GridBox, KINDS, Method, OctreeWay, Sharing, Space};
 use crate::shading::Shading;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -258,6 +258,16 @@ settings! {
         arg(long, value_enum, value_name = "LIST", value_delimiter = ',')
         serde(default, deserialize_with = "de::ways")
         schemars(schema_with = "schema::compaction")
+        write(serialize_with = "ser::one_or_several")
+        check(values::check_ways)
+    }
+    /// How the octrees of method hashed are made: `rebuild` (anew where lights are others), `seed-N` (the same, their hashes by
+    /// another seed), or `shared` (leaves with the same lights share one run of light indices). Of several, with commas between, each
+    /// is a run of every such method.
+    octree: Vec<OctreeWay> = vec![OctreeWay::Rebuild], Run {
+        arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::octree_way)
+        serde(default, deserialize_with = "de::ways")
+        schemars(schema_with = "schema::octree")
         write(serialize_with = "ser::one_or_several")
         check(values::check_ways)
     }

@@ -4,7 +4,7 @@
 use super::{Choice, Lighting, SceneEntry, scenes};
 use crate::assign::ListStore;
 use crate::lights::Attenuation;
-use crate::methods::Method;
+use crate::methods::{Method, OctreeWay};
 use serde::de::{Error as _, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serializer};
 use std::borrow::Borrow;
@@ -39,6 +39,11 @@ pub(super) fn choice<T: FromStr<Err = String>>(text: &str) -> Result<Choice<T>, 
 
 /// Reads the name of a store of light lists.
 pub(super) fn list_store(text: &str) -> Result<ListStore, String> {
+    text.parse()
+}
+
+/// Reads the name of a way to make octrees.
+pub(super) fn octree_way(text: &str) -> Result<OctreeWay, String> {
     text.parse()
 }
 

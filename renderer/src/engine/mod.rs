@@ -133,7 +133,11 @@ impl Engine {
             staged: Vec::with_capacity(mode.lights as usize),
             lights_there: None,
             lights_changed: false,
-            octree: HostOctree::new(&session.context, chosen.method, &sizes.capacities.octree)?,
+            octree: HostOctree::new(
+                &session.context,
+                (chosen.method, run.octree[0]),
+                &sizes.capacities.octree,
+            )?,
             slice_planes: Vec::with_capacity(largest.slice_planes as usize),
             clusterings: vec![],
             shaded: true,

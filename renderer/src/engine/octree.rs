@@ -12,7 +12,7 @@ use crate::clustering::FRAME_SLOTS;
 use crate::lights::FrameLights;
 use crate::measure::{GrowthEvent, OctreeCounts, OctreeSizes};
 use crate::methods::Method;
-use crate::methods::hashed::{self, HashedMethod};
+use crate::methods::hashed::{self, HashedMethod, OctreeWay};
 use crate::octree::{BuildTimes, LinklessOctree, OctreeLimits, OctreeSettings, Sphere};
 use crate::passes::octree::{OctreeTables, Table};
 use crate::vk::{Buffer, Context, Limits, Memory};
@@ -39,6 +39,7 @@ struct Standing {
 /// The octree of an engine whose method has one.
 pub(super) struct HostOctree {
     method: HashedMethod,
+    way: OctreeWay,
     standing: Option<Standing>,
     /// The box around what the lights of a revision reach, world space, metres.
     bounds: Option<(u64, Option<(DVec3, DVec3)>)>,
@@ -55,10 +56,15 @@ pub(super) struct HostOctree {
 
 impl HostOctree {
     /// Nothing yet, with room for tables of these sizes; `None` for a method without an octree.
-    pub fn new(context: &Arc<Context>, method: Method, room: &OctreeSizes) -> Result<Option<Self>> {
+    pub fn new(
+        context: &Arc<Context>,
+        (method, way): (Method, OctreeWay),
+        room: &OctreeSizes,
+    ) -> Result<Option<Self>> {
         let Method::Hashed(method) = method else { return Ok(None) };
         Ok(Some(Self {
             method,
+            way,
             standing: None,
             bounds: None,
             spheres: vec![],
@@ -84,7 +90,10 @@ impl HostOctree {
         }
         self.spheres.clear();
         self.spheres.extend(hashed::reaches(lights.list, slack));
-        let settings = OctreeSettings { limits: octree_limits(limits), ..self.method.settings(lights.list) };
+        let settings = OctreeSettings {
+            limits: octree_limits(limits),
+            ..self.way.of(self.method.settings(lights.list))
+        };
         let built = LinklessOctree::build(&self.spheres, &settings)?;
         self.standing = Some(Standing { octree: built.octree, of: wanted });
         (self.rebuilds, self.times, self.there) = (1, built.times, false);

@@ -1,6 +1,7 @@
 //! What is told of the octree of a frame.
 
 use super::OctreeSizes;
+use crate::octree::TableMemory;
 
 /// The octree over the lights of a frame.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -39,28 +40,8 @@ pub struct OctreeTable {
     pub kind: TableKind,
     /// Depth of the nodes that are its keys.
     pub depth: u32,
-    /// How many keys are stored.
-    pub keys: u32,
-    /// Slots a side, m.
-    pub side: u32,
-    /// Offsets a side, r.
-    pub offset_side: u32,
+    /// What it takes.
+    pub memory: TableMemory,
     /// Lights of all its leaves.
     pub light_indices: u64,
-}
-
-impl OctreeTable {
-    /// What its slots take, bytes.
-    pub fn slot_bytes(&self) -> u64 {
-        let bytes = match self.kind {
-            TableKind::Structure => OctreeSizes::NODE_BYTES,
-            TableKind::Data => OctreeSizes::LEAF_BYTES,
-        };
-        bytes * u64::from(self.side).pow(3)
-    }
-
-    /// What its offsets take, bytes.
-    pub fn offset_bytes(&self) -> u64 {
-        OctreeSizes::OFFSET_BYTES * u64::from(self.offset_side).pow(3)
-    }
 }

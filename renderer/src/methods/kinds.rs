@@ -330,6 +330,11 @@ impl Method {
         self.kind().cells().is_some()
     }
 
+    /// Whether its lists are those of an octree over the lights.
+    pub fn has_octree(&self) -> bool {
+        self.kind().groups == Groups::Leaves
+    }
+
     /// Whether the two differ in their sizes alone.
     fn is_like(&self, other: &Self) -> bool {
         match (self, other) {

@@ -21,7 +21,7 @@ pub mod world;
 
 pub use crate::geometry::Sharing;
 pub use grid::{Division, GridMethod, Space};
-pub use hashed::{HashedMethod, NodeSize};
+pub use hashed::{HashedMethod, NodeSize, OctreeWay};
 pub use kinds::{Groups, KINDS, Kind};
 pub use sizes::{Size, Unit};
 pub use world::{GridBox, WorldGrid};

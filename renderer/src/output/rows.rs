@@ -281,7 +281,7 @@ row! {
         /// Depth of the nodes that are its keys.
         depth: u32,
         /// How many nodes it holds.
-        keys: u32,
+        keys: u64,
         /// Slots a side, m.
         slot_side: u32,
         /// Offsets a side, r.
@@ -302,11 +302,11 @@ impl OctreeRow {
             frame,
             table: table.kind.name().into(),
             depth: table.depth,
-            keys: table.keys,
-            slot_side: table.side,
-            offset_side: table.offset_side,
-            slot_bytes: table.slot_bytes(),
-            offset_bytes: table.offset_bytes(),
+            keys: table.memory.keys,
+            slot_side: table.memory.side,
+            offset_side: table.memory.offset_side,
+            slot_bytes: table.memory.slot_bytes,
+            offset_bytes: table.memory.offset_bytes,
             light_indices: table.light_indices,
         }
     }

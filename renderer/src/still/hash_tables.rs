@@ -5,7 +5,8 @@
 //! offsets, likewise                                 offsets of the leaves
 //! ```
 
-use crate::octree::{HashTable, LinklessOctree, StoredKind};
+use crate::octree::{HashTable, Layer, LinklessOctree, StoredKind};
+use image::imageops::{self, FilterType};
 use image::{Rgb, RgbImage};
 
 /// Between slices, and behind tables that are smaller.
@@ -16,6 +17,9 @@ const FREE: Rgb<u8> = Rgb([70, 70, 78]);
 const BRANCH: Rgb<u8> = Rgb([240, 228, 66]);
 /// A slot that a leaf takes.
 const LEAF: Rgb<u8> = Rgb([86, 180, 233]);
+
+/// Pictures that are not this wide have larger pixels.
+const WIDTH: u32 = 640;
 
 /// Space around panels, pixels.
 const MARGIN: u32 = 4;
@@ -60,14 +64,22 @@ impl Panel<'_> {
 pub fn pictures(octree: &LinklessOctree) -> Vec<TablePicture> {
     let taken = Taken::of(octree);
     let layers = octree.layers.iter().zip(octree.frame.start_depth..);
-    layers
-        .map(|(layer, depth)| {
-            let branches = panels(octree, &layer.structure, (&taken.branches, BRANCH));
-            let leaves = layer.data.as_ref().map(|table| panels(octree, table, (&taken.leaves, LEAF)));
-            let columns: Vec<[Panel; 2]> = [Some(branches), leaves].into_iter().flatten().collect();
-            TablePicture { depth, image: compose(&columns) }
-        })
-        .collect()
+    let of_layer = |(layer, depth)| TablePicture { depth, image: enlarged(&picture(octree, layer, &taken)) };
+    layers.map(of_layer).collect()
+}
+
+/// A pixel for each entry of a layer's tables.
+fn picture(octree: &LinklessOctree, layer: &Layer, taken: &Taken) -> RgbImage {
+    let branches = panels(octree, &layer.structure, (&taken.branches, BRANCH));
+    let leaves = layer.data.as_ref().map(|table| panels(octree, table, (&taken.leaves, LEAF)));
+    let columns: Vec<[Panel; 2]> = [Some(branches), leaves].into_iter().flatten().collect();
+    compose(&columns)
+}
+
+/// Small tables with several pixels for each of their entries.
+fn enlarged(image: &RgbImage) -> RgbImage {
+    let scale = (WIDTH / image.width()).clamp(1, 8);
+    imageops::resize(image, scale * image.width(), scale * image.height(), FilterType::Nearest)
 }
 
 /// Which slots hold a key.
@@ -141,13 +153,17 @@ mod tests {
     fn every_key_is_a_pixel_of_its_table() {
         let lights = [0.0, 5.0, -4.0].map(|x| Sphere { centre: DVec3::splat(x), radius: 2.0 });
         let octree = LinklessOctree::build(&lights, &OctreeSettings::new(1.0, 1)).unwrap().octree;
+        let taken = Taken::of(&octree);
         let pictures = pictures(&octree);
         assert_eq!(pictures.len(), octree.layers.len());
-        for (picture, layer) in pictures.iter().zip(&octree.layers) {
-            let pixels = |color| picture.image.pixels().filter(|pixel| **pixel == color).count();
+        for (enlarged, layer) in pictures.iter().zip(&octree.layers) {
+            let small = picture(&octree, layer, &taken);
+            let scale = enlarged.image.width() / small.width();
+            assert!(scale > 1 && enlarged.image.height() == scale * small.height());
+            let pixels = |color| small.pixels().filter(|pixel| **pixel == color).count();
             let slots = |table: &HashTable| (table.side as usize).pow(3);
             let (branches, leaves) = (&layer.structure, layer.data.as_ref());
-            assert_eq!(pixels(BRANCH), branches.keys as usize, "depth {}", picture.depth);
+            assert_eq!(pixels(BRANCH), branches.keys as usize, "depth {}", enlarged.depth);
             assert_eq!(pixels(LEAF), leaves.map_or(0, |table| table.keys as usize));
             let free = slots(branches) + leaves.map_or(0, slots) - pixels(BRANCH) - pixels(LEAF);
             assert_eq!(pixels(FREE), free);

@@ -3,6 +3,7 @@
 use super::*;
 use crate::assign::{Compaction, ListStore};
 use crate::config::{Assign, Exclude};
+use crate::methods::OctreeWay;
 use crate::shading::Shading;
 use std::collections::BTreeSet;
 
@@ -12,7 +13,7 @@ fn everything() -> Config {
     Config {
         scenes: ["street=bistro", "temple=suntem"].map(|text| text.parse().unwrap()).to_vec(),
         lights: vec![Lighting::with_count(1), Lighting::with_count(20)],
-        methods: ["indi-persp-64", "encl-ortho-4", "all-lights"].map(read).to_vec(),
+        methods: ["indi-persp-64", "encl-ortho-4", "all-lights", "hashed-1-3"].map(read).to_vec(),
         assign: vec![Assign::Brute, Assign::Scatter],
         test: ["auto", "hs", "exact"].map(|name| name.parse().unwrap()).to_vec(),
         clusters: vec![Clusters::Visible.into(), Clusters::All.into()],
@@ -21,6 +22,7 @@ fn everything() -> Config {
         shading: vec![Shading::Prepass, Shading::Overdraw],
         lists: vec![ListStore::Offsets, ListStore::Fixed(8)],
         compaction: vec![Compaction::Ranks, Compaction::Atomic],
+        octree: vec![OctreeWay::Rebuild, OctreeWay::Seed(7)],
         ..Config::default()
     }
 }
@@ -32,8 +34,8 @@ fn runs() -> Vec<Config> {
 #[test]
 fn the_product_has_every_combination_that_differs_once() {
     // Of three tests, Persp has its own under two names and Ortho has not, and so it is of slices, which Ortho has none of;
-    // the third method knows no ways of assignment. All are shaded in two ways.
-    assert_eq!(runs().len(), 2 * 2 * 2 * ((2 * 2 * 2 * 2 * 2 + 2 * 3 * 2 * 2) * 2 * 2 + 1));
+    // the third method knows no ways of assignment, and the fourth but two of making octrees. All are shaded in two ways.
+    assert_eq!(runs().len(), 2 * 2 * 2 * ((2 * 2 * 2 * 2 * 2 + 2 * 3 * 2 * 2) * 2 * 2 + 1 + 2));
     for run in runs() {
         assert_eq!((run.by_scene(), run.cases()), (vec![run.clone()], vec![run]));
     }

@@ -2,7 +2,7 @@
 
 use crate::gpu_interface::{HashData, OCTREE_LAYERS, OctreeData, OctreeLayer};
 use crate::measure::{OctreeSizes, OctreeTable, TableKind};
-use crate::octree::{HashTable, LinklessOctree, MOST_DEPTH};
+use crate::octree::{HashTable, Layer, LayerMemory, LinklessOctree, MOST_DEPTH};
 use glam::DVec3;
 
 /// What rounding may cost for each metre that positions lie from the frame's origin: the worst of all roundings together, as for
@@ -32,25 +32,23 @@ pub fn table_sizes(octree: &LinklessOctree) -> OctreeSizes {
 
 /// What is told of the tables of an octree, by depth.
 pub fn told_tables(octree: &LinklessOctree) -> Vec<OctreeTable> {
-    let of = |kind, depth, table: &HashTable| OctreeTable {
-        kind,
-        depth,
-        keys: table.keys,
-        side: table.side,
-        offset_side: table.offset_side,
-        light_indices: match kind {
-            TableKind::Structure => 0,
-            TableKind::Data => lights_of(octree, table),
-        },
+    let layers = octree.layers.iter().zip(octree.memory());
+    let of_layer = |(layer, memory): (&Layer, LayerMemory)| {
+        let structure = OctreeTable {
+            kind: TableKind::Structure,
+            depth: memory.depth,
+            memory: memory.structure,
+            light_indices: 0,
+        };
+        let data = layer.data.zip(memory.data).map(|(table, of_data)| OctreeTable {
+            kind: TableKind::Data,
+            depth: memory.depth + 1,
+            memory: of_data,
+            light_indices: lights_of(octree, &table),
+        });
+        [Some(structure), data]
     };
-    let layers = octree.layers.iter().zip(octree.frame.start_depth..);
-    layers
-        .flat_map(|(layer, depth)| {
-            let data = layer.data.as_ref().map(|table| of(TableKind::Data, depth + 1, table));
-            [Some(of(TableKind::Structure, depth, &layer.structure)), data]
-        })
-        .flatten()
-        .collect()
+    layers.flat_map(of_layer).flatten().collect()
 }
 
 /// Lights of all leaves of a table.

@@ -12,8 +12,10 @@
 //! [`LinklessOctree::lights_at`] does on the host.
 
 mod data;
+mod way;
 
 pub use data::{data, slack, table_sizes, told_tables};
+pub use way::OctreeWay;
 
 use super::{Method, Size, Unit};
 use crate::lights::PointLight;

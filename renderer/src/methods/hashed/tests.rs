@@ -85,7 +85,7 @@ proptest! {
         }
         let lights_told: u64 = told_tables(&octree).iter().map(|table| table.light_indices).sum();
         prop_assert_eq!(lights_told, octree.indices.len() as u64);
-        let bytes: u64 = told_tables(&octree).iter().map(|table| table.slot_bytes() + table.offset_bytes()).sum();
+        let bytes: u64 = told_tables(&octree).iter().map(|table| table.memory.bytes()).sum();
         prop_assert_eq!(bytes + 4 * lights_told, table_sizes(&octree).bytes());
         // The origin that places are relative to moves the tree with them.
         let low = DVec3::from_array(data.origin.map(f64::from)) + DVec3::new(3.0, 0.0, -5.0);
