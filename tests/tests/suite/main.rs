@@ -15,6 +15,7 @@ mod far_away;
 mod golden;
 mod grids;
 mod invariants;
+mod hashed;
 mod light_sources;
 mod list_stores;
 mod mirror;
