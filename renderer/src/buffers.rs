@@ -87,7 +87,7 @@ buffers! {
     LightVolumes = buffer("light_volumes", Owner::Clustering)
         .storage("LightVolume light_volumes[]")
         .texels("volume", Element::Struct(LightVolume::INFO))
-        .sized(|s| bytes::<LightVolume>(s.lights.into()));
+        .sized(|s| bytes::<LightVolume>(s.volumes()));
     /// Whether each cluster of the grid is visible, a bit a cluster.
     ClusterBits = buffer("cluster_bits", Owner::Clustering)
         .storage("uint cluster_bits[]")

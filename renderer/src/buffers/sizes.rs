@@ -47,6 +47,11 @@ impl ClusteringSizes {
         }
     }
 
+    /// Lights that are taken into the space of clusters, where there are such.
+    pub(super) fn volumes(&self) -> u64 {
+        if self.clusters > 0 { self.lights.into() } else { 0 }
+    }
+
     /// Those of which each has its rank: what is visible before it.
     pub(super) fn ranked_words(&self) -> u64 {
         match self.compaction {

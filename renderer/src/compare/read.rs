@@ -16,7 +16,8 @@ pub(super) type Identity = Vec<String>;
 #[derive(Debug)]
 pub(super) struct RunEntry {
     pub identity: Identity,
-    /// Its value on each axis that is a way of building lists: beside the others, these tell the runs of a sweep apart.
+    /// Its value on each axis that is a way of building lists, empty where its method asks for none: beside the others, these tell the
+    /// runs of a sweep apart.
     /// Where they need not, runs are joined across them: so two ways or tests are compared.
     pub way: Vec<String>,
     /// The file of static lights as it was spelled, and its SHA-256, which earlier versions left out.
@@ -42,7 +43,7 @@ fn read_entry(directory: &Path) -> Result<RunEntry> {
     let sha256 = run.lights_file.as_ref().map(|input| input.sha256.clone());
     Ok(RunEntry {
         identity: identity(&run)?,
-        way: Axis::of_role(Role::Way).map(|axis| axis.label(&run.config, &run.config)).collect(),
+        way: Axis::of_role(Role::Way).map(|axis| axis.value(&run.config)).collect(),
         lights_file: run.config.lights_file.as_ref().map(|path| (path.display().to_string(), sha256)),
         age: output::age(directory, &run.started),
         label: label(&run),
@@ -66,7 +67,9 @@ impl RunEntry {
     /// Counts the way among what the run was asked to do.
     pub fn tell_by_way(&mut self) {
         self.identity.extend(self.way.clone());
-        self.label = format!("{}, {}", self.label, self.way.join(", "));
+        for value in self.way.iter().filter(|value| !value.is_empty()) {
+            self.label = format!("{}, {value}", self.label);
+        }
     }
 }
 

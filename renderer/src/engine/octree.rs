@@ -13,7 +13,7 @@ use crate::lights::FrameLights;
 use crate::measure::{GrowthEvent, OctreeCounts, OctreeSizes};
 use crate::methods::Method;
 use crate::methods::hashed::{self, HashedMethod, OctreeWay};
-use crate::octree::{BuildTimes, LinklessOctree, OctreeLimits, OctreeSettings, Sphere};
+use crate::octree::{BuildTimes, LinklessOctree, OctreeError, OctreeLimits, OctreeSettings, Sphere};
 use crate::passes::octree::{OctreeTables, Table};
 use crate::vk::{Buffer, Context, Limits, Memory};
 use crate::{Error, Result};
@@ -23,7 +23,7 @@ use std::sync::Arc;
 
 /// What an octree was built of.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Origin {
+struct Basis {
     /// Revision of the lights.
     revision: u64,
     /// What was added to their radii, metres.
@@ -33,7 +33,7 @@ struct Origin {
 /// An octree with what it was built of.
 struct Standing {
     octree: LinklessOctree,
-    of: Origin,
+    of: Basis,
 }
 
 /// The octree of an engine whose method has one.
@@ -81,9 +81,9 @@ impl HostOctree {
         lights: FrameLights,
         (origin, reach): (DVec3, f64),
         limits: &Limits,
-    ) -> std::result::Result<(), crate::octree::OctreeError> {
+    ) -> std::result::Result<(), OctreeError> {
         let slack = hashed::slack(reach + self.farthest(lights, origin));
-        let wanted = Origin { revision: lights.revision, slack };
+        let wanted = Basis { revision: lights.revision, slack };
         (self.rebuilds, self.times) = (0, BuildTimes::default());
         if self.standing.as_ref().is_some_and(|standing| standing.of == wanted) {
             return Ok(());
@@ -144,8 +144,9 @@ impl HostOctree {
 
     /// What is told of the frame at hand.
     pub fn counts(&self) -> Option<OctreeCounts> {
-        let layers = self.octree().map(hashed::told_tables)?;
-        Some(OctreeCounts { rebuilds: self.rebuilds, sizes: self.sizes(), tables: layers })
+        let octree = self.octree()?;
+        let tables = if self.rebuilds > 0 { hashed::told_tables(octree) } else { vec![] };
+        Some(OctreeCounts { rebuilds: self.rebuilds, sizes: self.sizes(), tables })
     }
 }
 

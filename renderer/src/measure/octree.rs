@@ -10,7 +10,7 @@ pub struct OctreeCounts {
     pub rebuilds: u64,
     /// Entries of its tables.
     pub sizes: OctreeSizes,
-    /// Its tables, by depth.
+    /// Its tables, by depth, of a frame that built it.
     pub tables: Vec<OctreeTable>,
 }
 
