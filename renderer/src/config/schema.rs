@@ -127,8 +127,8 @@ pub(super) fn compaction(_: &mut SchemaGenerator) -> Schema {
 pub(super) fn octree(_: &mut SchemaGenerator) -> Schema {
     one_or_several(&json_schema!({
         "type": "string",
-        "pattern": "^(rebuild|seed-[0-9]+|shared)$",
-        "examples": ["rebuild", "seed-7", "shared"]
+        "pattern": "^(rebuild|seed-[0-9]+|shared|geometry)$",
+        "examples": ["rebuild", "seed-7", "shared", "geometry"]
     }))
 }
 

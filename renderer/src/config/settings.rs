@@ -262,8 +262,8 @@ settings! {
         check(values::check_ways)
     }
     /// How the octrees of method hashed are made: `rebuild` (anew where lights are others), `seed-N` (the same, their hashes by
-    /// another seed), or `shared` (leaves with the same lights share one run of light indices). Of several, with commas between, each
-    /// is a run of every such method.
+    /// another seed), `shared` (leaves with the same lights share one run of light indices), or `geometry` (only where the scene has
+    /// surfaces). Of several, with commas between, each is a run of every such method.
     octree: Vec<OctreeWay> = vec![OctreeWay::Rebuild], Run {
         arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::octree_way)
         serde(default, deserialize_with = "de::ways")

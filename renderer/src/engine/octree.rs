@@ -12,7 +12,7 @@ use crate::clustering::FRAME_SLOTS;
 use crate::lights::FrameLights;
 use crate::measure::{GrowthEvent, OctreeCounts, OctreeSizes};
 use crate::methods::Method;
-use crate::methods::hashed::{self, HashedMethod, OctreeWay};
+use crate::methods::hashed::{self, HashedMethod, OctreeWay, SceneGeometry};
 use crate::octree::{BuildTimes, LinklessOctree, OctreeError, OctreeLimits, OctreeSettings, Sphere};
 use crate::passes::octree::{OctreeTables, Table};
 use crate::vk::{Buffer, Context, Limits, Memory};
@@ -80,7 +80,7 @@ impl HostOctree {
         &mut self,
         lights: FrameLights,
         (origin, reach): (DVec3, f64),
-        limits: &Limits,
+        (surfaces, limits): (Option<&SceneGeometry>, &Limits),
     ) -> std::result::Result<(), OctreeError> {
         let slack = hashed::slack(reach + self.farthest(lights, origin));
         let wanted = Basis { revision: lights.revision, slack };
@@ -94,7 +94,11 @@ impl HostOctree {
             limits: octree_limits(limits),
             ..self.way.of(self.method.settings(lights.list))
         };
-        let built = LinklessOctree::build(&self.spheres, &settings)?;
+        let surfaces = surfaces.filter(|_| self.way == OctreeWay::Geometry);
+        let built = match surfaces.and_then(|surfaces| surfaces.within(slack)) {
+            Some(triangles) => LinklessOctree::build_for(&self.spheres, triangles, &settings)?,
+            None => LinklessOctree::build(&self.spheres, &settings)?,
+        };
         self.standing = Some(Standing { octree: built.octree, of: wanted });
         (self.rebuilds, self.times, self.there) = (1, built.times, false);
         Ok(())
@@ -161,7 +165,7 @@ impl Engine {
         let Some(octree) = &mut self.octree else { return Ok(()) };
         let (origin, reach) = (plan.origin(), session.scene.reach);
         let eyes = plan.views.iter().map(|view| view.eye().distance(origin)).fold(reach, f64::max);
-        octree.update(lights, (origin, reach + eyes), &session.context.limits).map_err(|error| {
+        octree.update(lights, (origin, reach + eyes), (session.surfaces.as_ref(), &session.context.limits)).map_err(|error| {
             Error::input(format!("method {} at frame {}: {error}", self.method, plan.frame))
         })?;
         let sizes = octree.sizes();

@@ -13,6 +13,8 @@ use crate::gpu_interface::{DrawCommand, DrawCounts, MAX_VIEWS};
 use crate::gpu_scene::GpuScene;
 use crate::layouts::{DEPTH_SET, DescriptorSets, Layouts};
 use crate::machine::Probe;
+use crate::methods::OctreeWay;
+use crate::methods::hashed::SceneGeometry;
 use crate::pass::FrameTracker;
 use crate::passes::{DrawBuffers, ViewTargets};
 use crate::pipelines::PipelineStore;
@@ -31,6 +33,8 @@ pub struct Session {
     _depth_sets: DescriptorSets,
     /// The scene on the device.
     pub scene: GpuScene,
+    /// Surfaces of the scene, where some octree is kept where they are alone.
+    pub surfaces: Option<SceneGeometry>,
     /// Instances of the scene in drawing order.
     pub batches: Batches,
     /// Everything that is drawn of the scene where the device culls.
@@ -70,6 +74,7 @@ impl Session {
             targets: make_targets(&context, config, &depth_sets.sets)?,
             _depth_sets: depth_sets,
             scene: gpu_scene,
+            surfaces: config.octree.contains(&OctreeWay::Geometry).then(|| SceneGeometry::of(scene)),
             batches,
             draws: draw_buffers(&context, views, drawables.counts)?,
             drawables,

@@ -126,21 +126,23 @@ fn tables_tell_what_an_octree_takes() {
 #[test]
 fn every_way_makes_octrees_with_the_same_lists() {
     let frames = FrameRange { first: 300, end: Some(301), step: 1 };
-    let octree = ["rebuild", "seed-7", "shared"].map(|way| way.parse().unwrap()).to_vec();
+    let octree = ["rebuild", "seed-7", "shared", "geometry"].map(|way| way.parse().unwrap()).to_vec();
     let runs = run(Config { octree, frames, ..hall(&["all-lights", "hashed-0.5-3"]) });
-    assert_eq!(runs.len(), 4, "a run a way");
+    assert_eq!(runs.len(), 5, "a run a way");
     assert_equal_the_truth(&runs, Marking::Depth);
     let told = |run: &Run| {
         let counts = &run.counts[0];
         (counts.counters.lighting_computations, counts.visible_clusters(), counts.light_indices())
     };
-    assert!(runs[2..].iter().all(|run| told(run) == told(&runs[1])));
-    let [rebuilt, seeded, shared] = [1, 2, 3].map(|run| runs[run].counts[0].octree_bytes());
+    assert!(runs[2..4].iter().all(|run| told(run) == told(&runs[1])));
+    let [rebuilt, seeded, shared, trimmed] = [1, 2, 3, 4].map(|run| runs[run].counts[0].octree_bytes());
     assert!(
         rebuilt.abs_diff(seeded) * 100 <= rebuilt,
         "a seed changes no more than chance: {rebuilt}, {seeded}"
     );
     assert!(shared < rebuilt, "what is shared takes less: {shared}, {rebuilt}");
+    assert!(trimmed * 4 < rebuilt * 3, "most of the hall is air: {trimmed}, {rebuilt}");
+    assert_eq!(told(&runs[4]).0, told(&runs[1]).0, "surfaces have the same lists");
     assert_ne!(runs[1].lists[0].indices, runs[2].lists[0].indices, "leaves lie in other slots");
 }
 

@@ -12,9 +12,11 @@
 //! [`LinklessOctree::lights_at`] does on the host.
 
 mod data;
+mod geometry;
 mod way;
 
 pub use data::{data, slack, table_sizes, told_tables};
+pub use geometry::SceneGeometry;
 pub use way::OctreeWay;
 
 use super::{Method, Size, Unit};
