@@ -3,6 +3,7 @@
 use super::counters::OCTAVE_PARTS;
 use super::{DeviceCounts, OctreeCounts};
 use crate::{Error, Result};
+use glam::DVec3;
 use half::f16;
 
 /// One visible cluster, read back in an atemporal run.
@@ -106,6 +107,18 @@ pub struct ViewPixels {
     pub world_from_view: glam::DMat4,
     /// Clip from view (reversed depth), column-major.
     pub clip_from_view: glam::DMat4,
+}
+
+impl ViewPixels {
+    /// Where the surface at the middle of a pixel is, world space, metres; `None` where nothing was hit. It is as exact as `depth`.
+    pub fn place(&self, pixel: usize) -> Option<DVec3> {
+        let distance = f64::from(self.depth[pixel]);
+        let sides = [self.width as usize, self.height as usize];
+        let at = [pixel % sides[0], pixel / sides[0]];
+        let [x, y] = [0, 1].map(|axis| 2.0 * (at[axis] as f64 + 0.5) / sides[axis] as f64 - 1.0);
+        let near = self.clip_from_view.inverse().project_point3(DVec3::new(x, -y, 0.5));
+        distance.is_finite().then(|| self.world_from_view.transform_point3(near * (distance / -near.z)))
+    }
 }
 
 impl FrameCounts {

@@ -6,7 +6,6 @@ use manylight::assign::{Clusters, Marking};
 use manylight::config::{Config, ExrFrames, FrameRange};
 use manylight::inputs::Inputs;
 use manylight::lights::{Lighting, PointLight};
-use manylight::measure::ViewPixels;
 use manylight_tests::{METHODS, Run, methods, run_inputs};
 use std::collections::BTreeMap;
 
@@ -52,16 +51,6 @@ fn lists(run: &Run) -> Vec<BTreeMap<u32, &[u32]>> {
     all
 }
 
-/// Where a pixel's surface is, metres in the world; `None` where nothing is seen.
-fn place(view: &ViewPixels, pixel: usize) -> Option<DVec3> {
-    let distance = f64::from(view.depth[pixel]);
-    let sides = [view.width as usize, view.height as usize];
-    let at = [pixel % sides[0], pixel / sides[0]];
-    let [x, y] = [0, 1].map(|axis| 2.0 * (at[axis] as f64 + 0.5) / sides[axis] as f64 - 1.0);
-    let near = view.clip_from_view.inverse().project_point3(DVec3::new(x, -y, 0.5));
-    distance.is_finite().then(|| view.world_from_view.transform_point3(near * (distance / -near.z)))
-}
-
 /// Checks the list of every pixel of a run; gives how many lights its pixels need together.
 fn lists_have_what_is_needed(run: &Run, lights: &[PointLight]) -> usize {
     let lists = lists(run);
@@ -69,7 +58,7 @@ fn lists_have_what_is_needed(run: &Run, lights: &[PointLight]) -> usize {
     for (number, view) in run.images[0].1.iter().enumerate() {
         let of_view = &lists[number % lists.len()];
         for pixel in 0..view.depth.len() {
-            let Some(place) = place(view, pixel) else { continue };
+            let Some(place) = view.place(pixel) else { continue };
             // Where no leaf of an octree is, no light may be needed.
             let list = of_view.get(&view.cluster_index[pixel]).copied().unwrap_or_default();
             let reaches = |light: &PointLight| {

@@ -153,20 +153,10 @@ fn an_onlooker_sees_a_group_wherever_there_is_something() {
 
 /// Pixels of one view whose cell is not the twin's, for what is farther than a millimetre from where cells meet.
 fn wrong_cells(view: &ViewPixels, cell_of: impl Fn(DVec3) -> Option<u32>) -> usize {
-    let [width, height] = [view.width, view.height];
-    let view_from_clip = view.clip_from_view.inverse();
-    let wrong = |pixel: u32| {
-        let distance = f64::from(view.depth[pixel as usize]);
-        if !distance.is_finite() {
-            return false;
-        }
-        let at = [(pixel % width, width), (pixel / width, height)]
-            .map(|(at, size)| 2.0 * (f64::from(at) + 0.5) / f64::from(size) - 1.0);
-        let near = view_from_clip.project_point3(DVec3::new(at[0], -at[1], 0.5));
-        let world = view.world_from_view.transform_point3(near * (distance / -near.z));
-        cell_of(world).is_some_and(|cell| cell != view.cluster_index[pixel as usize])
+    let wrong = |&pixel: &usize| {
+        view.place(pixel).and_then(&cell_of).is_some_and(|cell| cell != view.cluster_index[pixel])
     };
-    (0..width * height).filter(|&pixel| wrong(pixel)).count()
+    (0..view.depth.len()).filter(wrong).count()
 }
 
 #[test]

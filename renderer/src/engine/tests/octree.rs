@@ -18,18 +18,6 @@ fn config(name: &str) -> Config {
     }
 }
 
-/// Where a pixel's surface is, metres in the world; `None` where nothing is seen.
-fn place(view: &ViewPixels, pixel: usize) -> Option<DVec3> {
-    let distance = f64::from(view.depth[pixel]);
-    let at = [pixel % view.width as usize, pixel / view.width as usize];
-    let [x, y] = [0, 1].map(|axis| {
-        let side = [view.width, view.height][axis];
-        2.0 * (at[axis] as f64 + 0.5) / f64::from(side) - 1.0
-    });
-    let near = view.clip_from_view.inverse().project_point3(DVec3::new(x, -y, 0.5));
-    distance.is_finite().then(|| view.world_from_view.transform_point3(near * (distance / -near.z)))
-}
-
 /// The leaf of a place; `None` nearer to another cell than rounding is sure of.
 fn sure_leaf(octree: &LinklessOctree, place: DVec3) -> Option<Option<usize>> {
     let cell = |shift: f64| octree.frame.cell(place + DVec3::splat(shift));
@@ -41,7 +29,7 @@ fn sure_leaf(octree: &LinklessOctree, place: DVec3) -> Option<Option<usize>> {
 fn compare(octree: &LinklessOctree, view: &ViewPixels) -> [usize; 2] {
     let mut compared = [0; 2];
     for pixel in 0..view.depth.len() {
-        let Some(leaf) = place(view, pixel).and_then(|place| sure_leaf(octree, place)) else { continue };
+        let Some(leaf) = view.place(pixel).and_then(|place| sure_leaf(octree, place)) else { continue };
         let group = leaf.map_or(u32::MAX, |slot| slot as u32);
         let lights = leaf.map_or(0, |slot| octree.leaves[slot][1]);
         assert_eq!((view.cluster_index[pixel], view.light_count[pixel]), (group, lights), "pixel {pixel}");
