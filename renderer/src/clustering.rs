@@ -2,7 +2,9 @@
 
 mod host_data;
 
-pub use host_data::{grid_data, gridless_data, view_data, world_slack};
+pub use host_data::{
+    SLACK_PER_METRE, SLACK_PER_METRE_BEYOND, grid_data, gridless_data, view_data, world_slack,
+};
 
 use crate::buffers::{BUFFER_COUNT, BufferName, BufferSet, BufferView, ClusteringSizes, Owner, set};
 use crate::geometry::{ClusterSpace, Grid};

@@ -11,12 +11,13 @@ use glam::{DVec3, DVec4};
 
 /// Rounding of positions and planes in f32 stays below this fraction of the grid's reach (the far distance, or the
 /// farthest side of a box), or of the radius where that is larger, so radii grown by it never lose a light. It is measured
-/// (see the tests of lights that touch) for views up to [`WIDE`] and [`AT_HOME`]; bounding every rounding by its worst gives
+/// (see the tests of lights that touch) for views whose corners are up to two reaches from the apex, and [`AT_HOME`]; bounding every rounding by its worst gives
 /// about three times as much.
-const SLACK_PER_METRE: f32 = 8e-7;
+pub const SLACK_PER_METRE: f32 = 8e-7;
 
-/// The same bound for each metre that a corner or a grid lies beyond [`WIDE`] or [`AT_HOME`].
-const SLACK_PER_METRE_BEYOND: f64 = 2.4e-6;
+/// The worst of all roundings together, for each metre that a corner or a grid lies beyond views of a usual width and
+/// [`AT_HOME`], and of positions anywhere in the world.
+pub const SLACK_PER_METRE_BEYOND: f64 = 2.4e-6;
 
 /// Corners of views up to so many reaches from the apex: those of a headset are at 2.27.
 const WIDE: f64 = 2.0;

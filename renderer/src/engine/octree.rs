@@ -6,6 +6,7 @@
 //!                                └──> staging of the slot ──(frame)──> tables on the device
 //! ```
 
+use super::growth::with_margin;
 use super::{Engine, FramePlan, Session};
 use crate::buffers::BufferName;
 use crate::clustering::FRAME_SLOTS;
@@ -165,7 +166,8 @@ impl Engine {
         let Some(octree) = &mut self.octree else { return Ok(()) };
         let (origin, reach) = (plan.origin(), session.scene.reach);
         let eyes = plan.views.iter().map(|view| view.eye().distance(origin)).fold(reach, f64::max);
-        octree.update(lights, (origin, reach + eyes), (session.surfaces.as_ref(), &session.context.limits)).map_err(|error| {
+        let by = (session.surfaces.as_ref(), &session.context.limits);
+        octree.update(lights, (origin, reach + eyes), by).map_err(|error| {
             Error::input(format!("method {} at frame {}: {error}", self.method, plan.frame))
         })?;
         let sizes = octree.sizes();
@@ -189,7 +191,7 @@ impl Engine {
         {
             if *needed > *room {
                 let from = *room;
-                *room = if from == 0 { *needed } else { super::growth::with_margin(*needed, *most) };
+                *room = if from == 0 { *needed } else { with_margin(*needed, *most) };
                 grown.push(GrowthEvent { frame, clustering: 0, buffer: buffer.to_owned(), from, to: *room });
             }
         }

@@ -1,22 +1,16 @@
 //! An octree as the device sees it.
 
+use crate::clustering::SLACK_PER_METRE_BEYOND;
 use crate::gpu_interface::{HashData, OCTREE_LAYERS, OctreeData, OctreeLayer};
 use crate::measure::{OctreeSizes, OctreeTable, TableKind};
 use crate::octree::{HashTable, Layer, LayerMemory, LinklessOctree, MOST_DEPTH};
 use glam::DVec3;
 
-/// What rounding may cost for each metre that positions lie from the frame's origin: the worst of all roundings together, as for
-/// grids in the world.
-const SLACK_PER_METRE: f64 = 2.4e-6;
-
-/// What it may cost for each metre of a radius.
-pub(super) const SLACK_PER_RADIUS: f64 = 8e-7;
-
 /// What is added to every light's radius, metres, where no geometry, eye or light of a frame lies farther than `farthest` metres
 /// from its origin: a power of two, so that a frame that differs little from the last asks for the same octree, and every frame
 /// for its own, whichever were rendered before.
 pub fn slack(farthest: f64) -> f64 {
-    (SLACK_PER_METRE * farthest).log2().ceil().exp2()
+    (SLACK_PER_METRE_BEYOND * farthest).log2().ceil().exp2()
 }
 
 /// How many entries the tables of an octree have.

@@ -20,6 +20,7 @@ pub use geometry::SceneGeometry;
 pub use way::OctreeWay;
 
 use super::{Method, Size, Unit};
+use crate::clustering::SLACK_PER_METRE;
 use crate::lights::PointLight;
 use crate::octree::{OctreeSettings, Sphere};
 use crate::pass::Recorder;
@@ -93,7 +94,7 @@ fn smallest_radius(lights: &[PointLight]) -> f64 {
 pub fn reaches(lights: &[PointLight], slack: f64) -> impl Iterator<Item = Sphere> + '_ {
     lights.iter().map(move |light| Sphere {
         centre: Vec3::from(light.position).as_dvec3(),
-        radius: f64::from(light.r1) * (1.0 + data::SLACK_PER_RADIUS) + slack,
+        radius: f64::from(light.r1) * (1.0 + f64::from(SLACK_PER_METRE)) + slack,
     })
 }
 
