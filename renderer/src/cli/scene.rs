@@ -7,7 +7,7 @@ use crate::inputs::load_scene;
 /// Arguments of `scene`.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// `street`, `temple`, `hall`, or the path of a .gltf, .glb or .obj file.
+    /// `street`, `temple`, `hall`, `city`, or the path of a .gltf, .glb or .obj file.
     #[arg(value_name = "NAME|PATH")]
     scene: String,
 

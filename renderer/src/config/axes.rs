@@ -19,8 +19,20 @@ pub enum Role {
     Lighting,
     /// How a method does its work: told where there are several.
     Way,
-    /// Comes with the scene and names nothing.
+    /// What a scene is looked at by: where one has several, each has a directory for its runs.
     WithScene,
+}
+
+impl Role {
+    /// Whether all runs of a directory share what is on the axis.
+    fn is_of_scene(self) -> bool {
+        matches!(self, Self::Scene | Self::WithScene)
+    }
+}
+
+/// What a resolution is called by.
+pub fn resolution_name([width, height]: [u32; 2]) -> String {
+    format!("{width}x{height}")
 }
 
 /// What a rule of `exclude` calls values by.
@@ -86,6 +98,24 @@ pub static AXES: [Axis; 13] = [
         count: |_| 1,
         split: |config| vec![config.clone()],
         called: |run| name_and_stem(&run.recording),
+        label: |_, _| String::new(),
+    },
+    Axis {
+        name: "resolution",
+        description: "The resolution, such as 320x180; `*` stands for any text.",
+        column: "resolution",
+        role: Role::WithScene,
+        values: Values::Names,
+        applies: |_| true,
+        count: |config| config.resolutions.len().max(1),
+        split: |config| match config.resolutions.as_slice() {
+            [] => vec![config.clone()],
+            several => {
+                each(several, |resolution| Config { resolution, resolutions: vec![], ..config.clone() })
+            }
+        },
+        called: |run| vec![resolution_name(run.resolution)],
+        // As of a scene.
         label: |_, _| String::new(),
     },
     Axis {
@@ -358,14 +388,14 @@ pub fn run_name(run: &Config, all: &Config) -> String {
 }
 
 impl Config {
-    /// A configuration for each scene.
+    /// A configuration for each scene in each resolution.
     pub fn by_scene(&self) -> Vec<Self> {
-        self.product(|role| role == Role::Scene)
+        self.product(Role::is_of_scene)
     }
 
-    /// The configuration of every run of one scene.
+    /// The configuration of every run of one scene in one resolution.
     pub fn cases(&self) -> Vec<Self> {
-        self.product(|role| role != Role::Scene)
+        self.product(|role| !role.is_of_scene())
     }
 
     fn product(&self, of: impl Fn(Role) -> bool) -> Vec<Self> {
@@ -384,10 +414,18 @@ fn of_scene(config: &Config, entry: &SceneEntry, several: bool) -> Config {
         scenes: Vec::new(),
         exclude: Vec::new(),
         resolution: entry.resolution.unwrap_or(config.resolution),
+        resolutions: if entry.resolution.is_some() { vec![] } else { config.resolutions.clone() },
         frames,
+        lights: own(&entry.lights, &config.lights),
+        light_volumes: own(&entry.light_volumes, &config.light_volumes),
         exr: if several { config.exr.within(&frames) } else { config.exr.clone() },
         ..config.clone()
     }
+}
+
+/// What a scene has of its own, or else what all have.
+fn own<T: Clone>(own: &[T], all: &[T]) -> Vec<T> {
+    if own.is_empty() { all.to_vec() } else { own.to_vec() }
 }
 
 fn each<T: Copy>(values: &[T], with: impl Fn(T) -> Config) -> Vec<Config> {

@@ -5,11 +5,12 @@ use crate::lights::GeneratorKind;
 
 impl Config {
     /// Lays a layer over this configuration: what it gives replaces what was there. The fields that say where lights
-    /// come from count as one, and so do those that name scenes.
+    /// come from count as one, and so do those that name scenes, and resolutions.
     pub(super) fn apply(&mut self, layer: Layer) -> Result<(), String> {
         self.make_room_for_lights(&layer)?;
         self.make_room_for_generator(&layer)?;
         self.make_room_for_scenes(&layer)?;
+        self.make_room_for_resolutions(&layer)?;
         self.replace(layer);
         Ok(())
     }
@@ -23,8 +24,8 @@ impl Config {
         other(&layer.scene, &default.scene) || other(&layer.recording, &default.recording)
     }
 
-    /// One scene and several replace each other. A resolution or frames that the layer gives hold for the scenes of
-    /// layers below, whatever those said.
+    /// One scene and several replace each other. Resolutions, frames, lights or volumes that the layer gives hold for the scenes
+    /// of layers below, whatever those said.
     fn make_room_for_scenes(&mut self, layer: &Layer) -> Result<(), String> {
         if layer.scenes.is_some() && Self::names_another_scene(layer) {
             return Err("scenes excludes scene and recording: give one or the other".into());
@@ -33,8 +34,30 @@ impl Config {
             self.scenes.clear();
         }
         for entry in &mut self.scenes {
-            entry.resolution = entry.resolution.filter(|_| layer.resolution.is_none());
+            entry.resolution =
+                entry.resolution.filter(|_| layer.resolution.is_none() && layer.resolutions.is_none());
             entry.frames = entry.frames.filter(|_| layer.frames.is_none());
+            if layer.lights.is_some() || layer.lights_file.is_some() || layer.scene_lights == Some(true) {
+                entry.lights.clear();
+            }
+            if layer.light_volumes.is_some() {
+                entry.light_volumes.clear();
+            }
+        }
+        Ok(())
+    }
+
+    /// One resolution and several replace each other. Beside several, a resolved configuration has the default one.
+    fn make_room_for_resolutions(&mut self, layer: &Layer) -> Result<(), String> {
+        let other = layer.resolution.is_some_and(|resolution| resolution != Self::default().resolution);
+        if layer.resolutions.is_some() && other {
+            return Err("resolutions excludes resolution: give one or the other".into());
+        }
+        if layer.resolution.is_some() {
+            self.resolutions.clear();
+        }
+        if layer.resolutions.is_some() {
+            self.resolution = Self::default().resolution;
         }
         Ok(())
     }

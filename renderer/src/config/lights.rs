@@ -38,8 +38,13 @@ impl Config {
         }
     }
 
-    /// Refuses lights from nowhere, lightings that the generator cannot make lights of, and settings that it does not know.
+    /// Refuses for any scene lights from nowhere, lightings that the generator cannot make lights of, and settings that it does
+    /// not know.
     pub(super) fn check_lights(&self) -> Result<()> {
+        self.by_scene().iter().try_for_each(Self::check_lights_of_scene)
+    }
+
+    fn check_lights_of_scene(&self) -> Result<()> {
         if self.lights_from().is_empty() {
             return Err(Error::input("lights: no lighting: give at least one, such as 1000"));
         }
@@ -82,6 +87,7 @@ impl Config {
         self.light_radius_mode = usual.light_radius_mode;
         self.light_radius_mean = usual.light_radius_mean;
         self.light_volumes = usual.light_volumes;
+        self.scenes.iter_mut().for_each(|entry| entry.light_volumes.clear());
         self.light_set = usual.light_set;
     }
 }

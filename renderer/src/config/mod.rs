@@ -20,7 +20,7 @@ mod values;
 #[cfg(test)]
 mod tests;
 
-pub use axes::{AXES, Axis, Labels, Role, run_name};
+pub use axes::{AXES, Axis, Labels, Role, resolution_name, run_name};
 pub use cases::{Choice, Own, Test};
 pub use declare::{Bearing, Setting};
 pub use exclude::Exclude;
@@ -30,7 +30,7 @@ pub use settings::{Config, Layer};
 pub use values::resolution as parse_resolution;
 
 use crate::assign::Assigner;
-use crate::lights::{Lighting, LightsFrom};
+use crate::lights::{LatticeBox, Lighting, LightsFrom};
 use crate::measure::Capacities;
 use crate::{Error, Result};
 use clap::ValueEnum;
@@ -132,6 +132,20 @@ pub struct SceneEntry {
     /// Frames to render; [`Config::frames`] where `None`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frames: Option<FrameRange>,
+    /// Lights that are made; [`Config::lights`] where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub lights: Vec<Lighting>,
+    /// Volumes that lights are laid out in; [`Config::light_volumes`] where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub light_volumes: Vec<LatticeBox>,
+}
+
+impl SceneEntry {
+    /// A scene with a recording, and nothing else of its own.
+    fn new(scene: impl Into<String>, recording: impl Into<String>) -> Self {
+        let (scene, recording) = (scene.into(), recording.into());
+        Self { scene, recording, resolution: None, frames: None, lights: vec![], light_volumes: vec![] }
+    }
 }
 
 impl Config {
@@ -205,8 +219,7 @@ impl Config {
         if !self.scenes.is_empty() {
             return self.scenes.clone();
         }
-        let (scene, recording) = (self.scene.clone(), self.recording.clone());
-        vec![SceneEntry { scene, recording, resolution: None, frames: None }]
+        vec![SceneEntry::new(&self.scene, &self.recording)]
     }
 
     /// The frames to render of a recording with `available` frames, ascending.

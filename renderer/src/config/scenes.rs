@@ -1,6 +1,7 @@
 //! The scene axis: scenes with their recordings, as JSON and as a flag.
 
-use super::{FrameRange, SceneEntry, schema, values};
+use super::{FrameRange, Lighting, SceneEntry, schema, values};
+use crate::lights::LatticeBox;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::fmt;
@@ -11,10 +12,10 @@ use std::str::FromStr;
 #[schemars(rename = "SceneEntry")]
 #[serde(
     deny_unknown_fields,
-    expecting = "an object with a scene and a recording, and maybe resolution and frames"
+    expecting = "an object with a scene and a recording, and maybe resolution, frames, lights and light_volumes"
 )]
 pub(super) struct RawSceneEntry {
-    /// Scene: `street`, `temple`, `hall`, or the path of a .gltf, .glb or .obj file.
+    /// Scene: `street`, `temple`, `hall`, `city`, or the path of a .gltf, .glb or .obj file.
     #[schemars(length(min = 1))]
     scene: String,
     /// Recording: a bundled name, or the path of a JSON file.
@@ -28,14 +29,21 @@ pub(super) struct RawSceneEntry {
     #[serde(default)]
     #[schemars(schema_with = "schema::frames")]
     frames: Option<FrameRange>,
+    /// Lights that are made in this scene, instead of the configuration's.
+    #[serde(default)]
+    lights: Vec<Lighting>,
+    /// Boxes of `volume` in this scene, instead of the configuration's.
+    #[serde(default)]
+    #[schemars(with = "Vec<String>")]
+    light_volumes: Vec<LatticeBox>,
 }
 
 impl TryFrom<RawSceneEntry> for SceneEntry {
     type Error = String;
 
     fn try_from(raw: RawSceneEntry) -> Result<Self, String> {
-        let RawSceneEntry { scene, recording, resolution, frames } = raw;
-        values::passed(Self { scene, recording, resolution, frames }, Self::check)
+        let RawSceneEntry { scene, recording, resolution, frames, lights, light_volumes } = raw;
+        values::passed(Self { scene, recording, resolution, frames, lights, light_volumes }, Self::check)
     }
 }
 
@@ -45,6 +53,7 @@ impl SceneEntry {
         values::check_text(&self.scene).map_err(|message| format!("scene: {message}"))?;
         values::check_text(&self.recording).map_err(|message| format!("recording: {message}"))?;
         self.resolution.as_ref().map_or(Ok(()), values::check_resolution)?;
+        values::check_lights(&self.lights)?;
         self.frames.as_ref().map_or(Ok(()), FrameRange::check)
     }
 }
@@ -63,7 +72,7 @@ pub(super) fn check_all(scenes: &[SceneEntry]) -> Result<(), String> {
 }
 
 impl fmt::Display for SceneEntry {
-    /// Writes `SCENE=RECORDING[,WxH][,A..B/STEP]`.
+    /// Writes `SCENE=RECORDING[,WxH][,A..B/STEP]`, without lights of its own.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}={}", self.scene, self.recording)?;
         if let Some([width, height]) = self.resolution {
@@ -84,8 +93,7 @@ impl FromStr for SceneEntry {
         let (scene, rest) = text.split_once('=').ok_or_else(wrong)?;
         let mut parts = rest.split(',').map(str::trim);
         let recording = parts.next().unwrap_or_default();
-        let mut entry =
-            Self { scene: scene.trim().into(), recording: recording.into(), resolution: None, frames: None };
+        let mut entry = Self::new(scene.trim(), recording);
         for part in parts {
             match values::resolution(part) {
                 Ok(resolution) if entry.resolution.is_none() => entry.resolution = Some(resolution),

@@ -54,6 +54,12 @@ pub(super) fn resolution(_: &mut SchemaGenerator) -> Schema {
     })
 }
 
+pub(super) fn resolutions(generator: &mut SchemaGenerator) -> Schema {
+    let mut one = resolution(generator);
+    one.insert("type".into(), "array".into());
+    json_schema!({ "type": ["array", "null"], "items": one, "uniqueItems": true })
+}
+
 pub(super) fn msaa(_: &mut SchemaGenerator) -> Schema {
     json_schema!({ "enum": [1, 4, null] })
 }

@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 settings! {
-    /// Scene: `street`, `temple`, `hall`, or the path of a .gltf, .glb or .obj file.
+    /// Scene: `street`, `temple`, `hall`, `city`, or the path of a .gltf, .glb or .obj file.
     scene: String = "street".into(), Run {
         arg(long, value_name = "NAME|PATH")
         serde(default, deserialize_with = "de::text")
@@ -30,8 +30,8 @@ settings! {
     strict: bool = false, Outside {
         arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")
     }
-    /// Recording: `bistro`, `suntem`, `hall`, `bistro-vive`, `bistro-mirror`, `suntem-vive`, `hall-vive`, or the path of a
-    /// JSON file.
+    /// Recording: `bistro`, `suntem`, `hall`, `street`, `city`, `bistro-vive`, `bistro-mirror`, `suntem-vive`, `hall-vive`, or the
+    /// path of a JSON file.
     recording: String = "bistro-vive".into(), Run {
         arg(long, value_name = "NAME|PATH")
         serde(default, deserialize_with = "de::text")
@@ -39,7 +39,7 @@ settings! {
         check(values::check_text)
     }
     /// Several scenes, each with its recording and maybe a resolution and frames of its own, instead of `scene`
-    /// and `recording`; the flag is repeated for several.
+    /// and `recording`; the flag is repeated for several. In a file they may have lights and light_volumes of their own too.
     scenes: Vec<SceneEntry> = Vec::new(), Run {
         arg(long, value_name = "SCENE=RECORDING[,WxH][,FRAMES]")
         serde(default, deserialize_with = "de::scenes")
@@ -129,6 +129,14 @@ settings! {
         serde(default, deserialize_with = "de::resolution")
         schemars(schema_with = "schema::resolution")
         check(values::check_resolution)
+    }
+    /// Several resolutions, in each of which every scene is replayed that has none of its own, instead of `resolution`.
+    resolutions: Vec<[u32; 2]> = Vec::new(), Run {
+        arg(long, value_name = "WxH,..", value_delimiter = ',', value_parser = values::resolution)
+        serde(default, deserialize_with = "de::resolutions")
+        schemars(schema_with = "schema::resolutions")
+        write(skip_serializing_if = "Vec::is_empty")
+        check(values::check_resolutions)
     }
     /// Samples a pixel, 1 or 4.
     msaa: u32 = 1, Shown {

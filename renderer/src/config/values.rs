@@ -63,6 +63,14 @@ pub(super) fn check_resolution([width, height]: &[u32; 2]) -> Result<(), String>
     Err(format!("{width}x{height} pixels: each side is from 1 to {MAX_RESOLUTION}"))
 }
 
+/// Refuses resolutions with sides out of range, and one that is named twice.
+pub(super) fn check_resolutions(resolutions: &[[u32; 2]]) -> Result<(), String> {
+    if let Some([width, height]) = first_twin(resolutions) {
+        return Err(format!("{width}x{height} is named twice"));
+    }
+    resolutions.iter().try_for_each(check_resolution)
+}
+
 /// Reads a number of samples a pixel.
 pub(super) fn msaa(text: &str) -> Result<u32, String> {
     passed(text.parse().map_err(|_| format!("`{text}` is neither 1 nor 4"))?, check_msaa)
@@ -227,6 +235,10 @@ pub(super) mod de {
 
     pub fn resolution<'de, D: Deserializer<'de>>(d: D) -> Result<Option<[u32; 2]>, D::Error> {
         made(d, |resolution| passed(resolution, check_resolution))
+    }
+
+    pub fn resolutions<'de, D: Deserializer<'de>>(d: D) -> Result<Option<Vec<[u32; 2]>>, D::Error> {
+        made(d, |resolutions: Vec<[u32; 2]>| passed(resolutions, check_resolutions))
     }
 
     pub fn msaa<'de, D: Deserializer<'de>>(d: D) -> Result<Option<u32>, D::Error> {

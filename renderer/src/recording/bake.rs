@@ -10,14 +10,16 @@
 //!   "rain": {"may be": "left out; as in a recording, else it rains in the box of the scene that is flown"},
 //!   "waypoints": [
 //!     {"position": [0, 2, 0], "target": [0, 2, -5], "time_s": 0},
-//!     {"position": [4, 2, 0], "target": [0, 2, -5], "time_s": 2.5}
+//!     {"position": [4, 2, 0], "target": [0, 2, -5], "time_s": 2.5},
+//!     {"position": [9, 6, 9], "target": [0, 2, -5], "time_s": 3, "cut": true}
 //!   ]
 //! }
 //! ```
 //!
 //! There are at least two waypoints, their times rise, and `fov` spans the longer axis of the image. The camera
-//! passes through every position at its time, looking at that waypoint's target, +Y up. The first frame is at the
-//! first waypoint's time, the last one at or at most `dt_s` before the last one's.
+//! passes through every position at its time, looking at that waypoint's target, +Y up. At a waypoint with `cut` (left
+//! out: no) it jumps: until then it stands at the waypoint before, if it got there, and there a flight of its own begins.
+//! The first frame is at the first waypoint's time, the last one at or at most `dt_s` before the last one's.
 
 mod spline;
 
@@ -65,6 +67,8 @@ struct Waypoint {
     position: DVec3,
     target: DVec3,
     time_s: f64,
+    #[serde(default)]
+    cut: bool,
 }
 
 impl Check for WaypointFile {
@@ -79,6 +83,10 @@ impl Check for WaypointFile {
             let message =
                 format!("does not lie after {} of the waypoint before", self.waypoints[index].time_s);
             return Err(Problem::new(message).under("time_s").under(index + 1).under("waypoints"));
+        }
+        if self.waypoints.first().is_some_and(|first| first.cut) {
+            let message = "there is nothing before the first waypoint to cut from: leave it out";
+            return Err(Problem::new(message).under("cut").under(0).under("waypoints"));
         }
         if self.waypoints.len() < 2 {
             return Err(Problem::new("give at least two waypoints").under("waypoints"));
@@ -127,15 +135,14 @@ impl WaypointFile {
 
     /// The heads of all frames.
     fn frames(&self) -> Result<Vec<Frame>> {
-        let knots = |value: fn(&Waypoint) -> DVec3| {
-            Spline::new(self.waypoints.iter().map(|waypoint| (waypoint.time_s, value(waypoint))).collect())
-        };
-        let (positions, targets) = (knots(|waypoint| waypoint.position), knots(|waypoint| waypoint.target));
+        let flights: Vec<Flight> = self.waypoints.chunk_by(|_, next| !next.cut).map(Flight::new).collect();
         let mut yaw = 0.0;
         (0..self.frame_count() as u32)
             .map(|frame| {
                 let time = self.start_s() + f64::from(frame) * self.dt_s;
-                let (position, target) = (positions.at(time), targets.at(time));
+                // A cut that means to fall on a frame does.
+                let begun = flights.partition_point(|flight| flight.start_s <= time + 1e-6 * self.dt_s);
+                let [position, target] = flights[begun.max(1) - 1].at(time);
                 let angles = look_along(target - position, yaw).ok_or_else(|| {
                     let message = "the splined target meets the position; move a waypoint, or add one";
                     Error::input(format!("at {time} s (frame {frame}) {message}"))
@@ -144,6 +151,32 @@ impl WaypointFile {
                 Ok(Frame::from_angles(position, angles[0], angles[1], self.fov))
             })
             .collect()
+    }
+}
+
+/// What lies between two cuts.
+struct Flight {
+    start_s: f64,
+    positions: Spline,
+    targets: Spline,
+}
+
+impl Flight {
+    /// Through these waypoints, at least one.
+    fn new(waypoints: &[Waypoint]) -> Self {
+        let knots = |value: fn(&Waypoint) -> DVec3| {
+            Spline::new(waypoints.iter().map(|waypoint| (waypoint.time_s, value(waypoint))).collect())
+        };
+        Self {
+            start_s: waypoints[0].time_s,
+            positions: knots(|waypoint| waypoint.position),
+            targets: knots(|waypoint| waypoint.target),
+        }
+    }
+
+    /// Position and target.
+    fn at(&self, time: f64) -> [DVec3; 2] {
+        [self.positions.at(time), self.targets.at(time)]
     }
 }
 

@@ -65,10 +65,12 @@ use sha2::{Digest, Sha256};
 use std::path::Path;
 
 /// The recordings in the binary, by name.
-const BUNDLED: [(&str, &str); 7] = [
+const BUNDLED: [(&str, &str); 9] = [
     ("bistro", include_str!("../../../recordings/bistro.json")),
     ("suntem", include_str!("../../../recordings/suntem.json")),
     ("hall", include_str!("../../../recordings/hall.json")),
+    ("street", include_str!("../../../recordings/street.json")),
+    ("city", include_str!("../../../recordings/city.json")),
     ("bistro-vive", include_str!("../../../recordings/bistro-vive.json")),
     ("bistro-mirror", include_str!("../../../recordings/bistro-mirror.json")),
     ("suntem-vive", include_str!("../../../recordings/suntem-vive.json")),

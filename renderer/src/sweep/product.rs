@@ -1,14 +1,14 @@
 //! The product of the axes, and what its runs are called.
 
-use crate::config::{Config, ExrFrames, SceneEntry};
+use crate::config::{Config, ExrFrames, SceneEntry, resolution_name};
 use crate::output::{PlannedRun, planned_runs};
 use crate::{Error, Result};
 use std::path::{Path, PathBuf};
 
-/// The runs of one scene with one recording.
+/// The runs of one scene with one recording in one resolution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
-    /// Its directory in the output, empty where there is one scene.
+    /// Its directory in the output, empty where there is one part.
     pub directory: String,
     /// The configuration of this scene alone; [`Config::out`] is where its runs lie.
     pub config: Config,
@@ -34,11 +34,11 @@ impl Part {
 /// Two scenes would share a directory, an image is asked for of a frame that no scene renders, no run is left, or one
 /// has a test that cannot serve its method.
 pub fn parts(config: &Config) -> Result<Vec<Part>> {
-    let entries = config.scene_entries();
-    let directories = directories(&entries)?;
-    check_images(config, &entries)?;
+    check_images(config, &config.scene_entries())?;
+    let scenes = config.by_scene();
+    let directories = directories(&scenes)?;
     let mut parts = Vec::new();
-    for (mut scene, directory) in config.by_scene().into_iter().zip(directories) {
+    for (mut scene, directory) in scenes.into_iter().zip(directories) {
         if !directory.is_empty() {
             scene.out.push(&directory);
         }
@@ -54,26 +54,33 @@ pub fn parts(config: &Config) -> Result<Vec<Part>> {
     Ok(parts)
 }
 
-/// A directory a scene: its name, with the recording's behind it where a scene occurs more than once.
-fn directories(entries: &[SceneEntry]) -> Result<Vec<String>> {
-    if entries.len() == 1 {
+/// A directory for each: the scene's name, and behind it the recording's and the resolution where the name does not tell it.
+fn directories(scenes: &[Config]) -> Result<Vec<String>> {
+    if scenes.len() == 1 {
         return Ok(vec![String::new()]);
     }
-    let scenes: Vec<String> = entries.iter().map(|entry| stem(&entry.scene)).collect();
-    let names: Vec<String> = entries
-        .iter()
-        .zip(&scenes)
-        .map(|(entry, scene)| match scenes.iter().filter(|other| *other == scene).count() {
-            1 => scene.clone(),
-            _ => format!("{scene}-{}", stem(&entry.recording)),
-        })
-        .collect();
+    let names: Vec<String> = (0..scenes.len()).map(|place| directory(scenes, place)).collect();
     match names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {
         Some((_, twin)) => Err(Error::Input(format!(
             "scenes: two of them would be written to the directory {twin}: give each scene and recording once"
         ))),
         None => Ok(names),
     }
+}
+
+fn directory(scenes: &[Config], place: usize) -> String {
+    let called = |config: &Config| [stem(&config.scene), stem(&config.recording)];
+    let ([scene, recording], resolution) = (called(&scenes[place]), scenes[place].resolution);
+    let others = scenes.iter().enumerate().filter(|(other, _)| *other != place).map(|(_, config)| config);
+    let namesakes: Vec<&Config> = others.filter(|other| called(other)[0] == scene).collect();
+    let mut name = scene;
+    if namesakes.iter().any(|other| called(other)[1] != recording || other.resolution == resolution) {
+        name += &format!("-{recording}");
+    }
+    if namesakes.iter().any(|other| called(other)[1] == recording && other.resolution != resolution) {
+        name += &format!("-{}", resolution_name(resolution));
+    }
+    name
 }
 
 fn stem(name: &str) -> String {
@@ -143,6 +150,39 @@ mod tests {
         assert_eq!(parts[1].config.out, Path::new("out/temple"));
         config.exr = "3".parse().unwrap();
         assert!(super::parts(&config).unwrap_err().to_string().contains("frame 3"));
+    }
+
+    #[test]
+    fn every_scene_is_replayed_in_every_resolution_in_a_directory_of_its_own() {
+        let directories = |scenes: &[&str], resolutions: &[[u32; 2]]| {
+            let config = Config { resolutions: resolutions.to_vec(), ..config(scenes, &[]) };
+            let parts = parts(&config).unwrap();
+            let told = |part: &Part| (part.directory.clone(), part.config.resolution);
+            assert!(parts.iter().all(|part| part.runs.iter().all(|run| run.config.resolutions.is_empty())));
+            parts.iter().map(told).collect::<Vec<_>>()
+        };
+        let named = |all: &[(&str, [u32; 2])]| {
+            all.iter().map(|(name, size)| ((*name).to_owned(), *size)).collect::<Vec<_>>()
+        };
+        let two = [[8, 8], [16, 8]];
+        assert_eq!(directories(&["street=bistro"], &two[..1]), named(&[("", [8, 8])]));
+        assert_eq!(
+            directories(&["street=bistro"], &two),
+            named(&[("street-8x8", [8, 8]), ("street-16x8", [16, 8])])
+        );
+        // A scene that has a resolution keeps it.
+        assert_eq!(
+            directories(&["street=bistro", "street=street", "temple=suntem,4x4"], &two),
+            named(&[
+                ("street-bistro-8x8", [8, 8]),
+                ("street-bistro-16x8", [16, 8]),
+                ("street-street-8x8", [8, 8]),
+                ("street-street-16x8", [16, 8]),
+                ("temple", [4, 4]),
+            ])
+        );
+        let narrowed = Config { resolutions: two.to_vec(), ..config(&[], &["resolution=8x*"]) };
+        assert_eq!(parts(&narrowed).unwrap().len(), 1);
     }
 
     #[test]

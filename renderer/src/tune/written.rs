@@ -41,7 +41,7 @@ fn rules_of_scene(scene: &Config, several: bool, chosen: &[Config]) -> Vec<Exclu
     let runs = scene.cases();
     let judged: Vec<Judged> = runs.iter().map(|run| (run, keys.contains(&key(run)))).collect();
     let axes: Vec<&'static Axis> = ASKED.iter().filter_map(|name| Axis::named(name)).collect();
-    let named = ["scene", "recording"].iter().filter_map(|name| Axis::named(name));
+    let named = ["scene", "recording", "resolution"].iter().filter_map(|name| Axis::named(name));
     let given = named.filter(|_| several).map(|axis| (axis, vec![axis.value(&runs[0])]));
     rules(&judged, &axes, &given.collect())
 }

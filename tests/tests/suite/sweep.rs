@@ -51,6 +51,30 @@ fn no_temporaries(out: &Path) {
 }
 
 #[test]
+fn every_resolution_is_replayed_and_has_a_directory_of_its_own() {
+    let out = tempfile::tempdir().unwrap();
+    let mut command = manylight();
+    command.args(["replay", "--quiet", "--resolutions", "48x32,24x24", "--frames", "300", "--runs", "0"]);
+    command.args(["--lights", "50", "--method", "indi-ortho-16", "--out"]).arg(out.path());
+    printed(&mut command);
+    for (directory, sides) in [("street-48x32", [48, 32]), ("street-24x24", [24, 24])] {
+        let manifest = read(out.path().join(directory).join("indi-ortho-16/run.json"));
+        let manifest: serde_json::Value = serde_json::from_str(&manifest).unwrap();
+        assert_eq!(manifest["config"]["resolution"], serde_json::json!(sides));
+        assert_eq!(manifest["config"]["resolutions"], serde_json::Value::Null);
+    }
+    let shaded = |directory: &str| {
+        let table = read(out.path().join(directory).join("indi-ortho-16/frames.csv"));
+        let cells = |line: usize| table.lines().nth(line).unwrap().split(',').map(str::to_owned);
+        let place = cells(0).position(|name| name == "fragments_shaded").unwrap();
+        cells(1).nth(place).unwrap().parse::<u32>().unwrap()
+    };
+    // Two eyes of so many pixels, of which the sky is none.
+    let (wide, square) = (shaded("street-48x32"), shaded("street-24x24"));
+    assert!((1500..=2 * 48 * 32).contains(&wide) && (500..=2 * 24 * 24).contains(&square), "{wide} {square}");
+}
+
+#[test]
 fn axes_are_multiplied_without_what_is_excluded() {
     let out = tempfile::tempdir().unwrap();
     let scenes = ["--scenes", "street=bistro-vive", "--scenes", "temple=suntem,40x24"];

@@ -12,6 +12,7 @@ fn everything() -> Config {
     let read = |name: &str| name.parse().unwrap();
     Config {
         scenes: ["street=bistro", "temple=suntem"].map(|text| text.parse().unwrap()).to_vec(),
+        resolutions: vec![[8, 4], [16, 16]],
         lights: vec![Lighting::with_count(1), Lighting::with_count(20)],
         methods: ["indi-persp-64", "encl-ortho-4", "all-lights", "hashed-1-3"].map(read).to_vec(),
         assign: vec![Assign::Brute, Assign::Scatter],
@@ -35,7 +36,7 @@ fn runs() -> Vec<Config> {
 fn the_product_has_every_combination_that_differs_once() {
     // Of three tests, Persp has its own under two names and Ortho has not, and so it is of slices, which Ortho has none of;
     // the third method knows no ways of assignment, and the fourth but two of making octrees. All are shaded in two ways.
-    assert_eq!(runs().len(), 2 * 2 * 2 * ((2 * 2 * 2 * 2 * 2 + 2 * 3 * 2 * 2) * 2 * 2 + 1 + 2));
+    assert_eq!(runs().len(), 2 * 2 * 2 * 2 * ((2 * 2 * 2 * 2 * 2 + 2 * 3 * 2 * 2) * 2 * 2 + 1 + 2));
     for run in runs() {
         assert_eq!((run.by_scene(), run.cases()), (vec![run.clone()], vec![run]));
     }
@@ -61,8 +62,8 @@ fn every_axis_has_a_value_where_it_applies() {
         }
     }
     let value = |name: &str| Axis::named(name).unwrap().value(&runs()[0]);
-    let known = ["scene", "recording", "lights", "method", "test"].map(value);
-    assert_eq!(known, ["street", "bistro", "1", "indi-persp-64", "hs"]);
+    let known = ["scene", "recording", "resolution", "lights", "method", "test"].map(value);
+    assert_eq!(known, ["street", "bistro", "8x4", "1", "indi-persp-64", "hs"]);
 }
 
 #[test]

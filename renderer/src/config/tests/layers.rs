@@ -164,3 +164,46 @@ fn scenes_replace_each_other_as_one() {
     let error = resolved(&[r#"{"scene": "a", "scenes": [{"scene": "b", "recording": "c"}]}"#]).unwrap_err();
     assert!(error.to_string().contains("exclude"), "{error}");
 }
+
+#[test]
+fn scenes_may_have_lights_of_their_own() {
+    let own = r#"{"light_source": "volume", "lights": [{"count": 8}], "light_volumes": ["2x2x2"], "scenes": [
+        {"scene": "hall", "recording": "hall", "lights": [{"count": 12}, {"count": 24}],
+         "light_volumes": ["0,0,0,1,1,1:3x2x2:5"]}, {"scene": "street", "recording": "bistro"}]}"#;
+    let lights = |layers: &[&str]| {
+        let told = |config: &Config| {
+            let counts: Vec<u32> = config.lights.iter().map(|lighting| lighting.count).collect();
+            (counts, config.light_volumes.iter().map(ToString::to_string).collect::<Vec<_>>())
+        };
+        resolved(layers).map(|config| config.by_scene().iter().map(told).collect::<Vec<_>>())
+    };
+    let all = || (vec![8], vec!["2x2x2".to_owned()]);
+    let hall = (vec![12, 24], vec!["0,0,0,1,1,1:3x2x2:5".to_owned()]);
+    assert_eq!(lights(&[own]).unwrap(), [hall, all()]);
+    let flags = r#"{"light_volumes": ["2x2x2"], "lights": [{"count": 8}]}"#;
+    assert_eq!(lights(&[own, flags]).unwrap(), [all(), all()]);
+    assert_eq!(lights(&[own, r#"{"light_source": "rain"}"#]).unwrap()[0], (vec![12, 24], vec![]));
+    assert_eq!(lights(&[own, r#"{"scene_lights": true}"#]).unwrap(), [(vec![], vec![]), (vec![], vec![])]);
+    // Of each scene, lights are checked by its own volumes.
+    let wrong = own.replace(r#"{"count": 24}"#, r#"{"count": 25}"#);
+    let error = lights(&[&wrong]).unwrap_err().to_string();
+    assert!(error.contains("25 lights: no set of lattices with 12 in all"), "{error}");
+}
+
+#[test]
+fn one_resolution_and_several_replace_each_other() {
+    let sides = |layers: &[&str]| {
+        let config = resolved(layers).unwrap();
+        config.by_scene().iter().map(|scene| scene.resolution).collect::<Vec<_>>()
+    };
+    let (several, one) = (r#"{"resolutions": [[8, 8], [16, 8]]}"#, r#"{"resolution": [4, 2]}"#);
+    assert_eq!(sides(&[several]), [[8, 8], [16, 8]]);
+    assert_eq!(sides(&[several, one]), [[4, 2]]);
+    assert_eq!(sides(&[one, several]), [[8, 8], [16, 8]]);
+    let both = r#"{"resolution": [4, 2], "resolutions": [[8, 8]]}"#;
+    assert!(refusal(both).contains("resolutions excludes resolution"), "{}", refusal(both));
+    let twice = r#"{"resolutions": [[8, 8], [8, 8]]}"#;
+    assert!(refusal(twice).contains("8x8 is named twice"), "{}", refusal(twice));
+    let config = resolved(&[several]).unwrap();
+    assert_eq!(resolved(&[&serde_json::to_string(&config).unwrap()]).unwrap(), config);
+}

@@ -6,19 +6,20 @@ use glam::DVec3;
 /// curve the tangent at a knot is that of the parabola through it and its neighbours, so velocity is continuous
 /// and uneven times make no overshoot of their own; at the ends it is the chord's.
 pub(super) struct Spline {
-    /// Time and point, times rising; at least two.
+    /// Time and point, times rising; at least one.
     knots: Vec<(f64, DVec3)>,
     /// Velocity at each knot.
     tangents: Vec<DVec3>,
 }
 
 impl Spline {
-    /// A curve through `knots`, at least two, their times strictly rising.
+    /// A curve through `knots`, at least one, their times strictly rising.
     pub(super) fn new(knots: Vec<(f64, DVec3)>) -> Self {
         let chord = |k: usize| (knots[k + 1].1 - knots[k].1) / (knots[k + 1].0 - knots[k].0);
         let last = knots.len() - 1;
         let tangents = (0..=last)
             .map(|k| match k {
+                _ if last == 0 => DVec3::ZERO,
                 0 => chord(0),
                 k if k == last => chord(last - 1),
                 k => {
@@ -32,6 +33,9 @@ impl Spline {
 
     /// The point at `time`; before the first and after the last knot, that knot's.
     pub(super) fn at(&self, time: f64) -> DVec3 {
+        if let [(_, point)] = self.knots[..] {
+            return point;
+        }
         let next = self.knots.partition_point(|knot| knot.0 <= time).clamp(1, self.knots.len() - 1);
         let ((t0, p0), (t1, p1)) = (self.knots[next - 1], self.knots[next]);
         let (m0, m1) = (self.tangents[next - 1] * (t1 - t0), self.tangents[next] * (t1 - t0));
@@ -53,6 +57,12 @@ mod tests {
         for t in [1.0, 1.2, 1.5, 2.0, 3.9] {
             assert!((spline.at(t) - point(t)).length() < 1e-12, "{t}");
         }
+    }
+
+    #[test]
+    fn one_knot_is_a_point() {
+        let spline = Spline::new(vec![(2.0, DVec3::ONE)]);
+        assert_eq!([1.0, 2.0, 9.0].map(|t| spline.at(t)), [DVec3::ONE; 3]);
     }
 
     proptest! {

@@ -47,16 +47,39 @@ fn the_camera_passes_the_waypoints_at_their_times() {
 }
 
 #[test]
-fn the_flight_through_the_hall_is_baked_from_its_waypoints() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../recordings/hall.waypoints.json");
-    let (baked, bundled) = (bake(path).unwrap(), load("hall").unwrap());
-    assert_eq!(baked.file().source, bundled.file().source);
-    assert_eq!((baked.rain(), baked.frame_count()), (bundled.rain(), bundled.frame_count()));
-    // Platforms' sines may differ in a last bit, and what is rounded by one step.
-    for (a, b) in baked.file().frames.iter().zip(&bundled.file().frames) {
-        assert!((a.head.position - b.head.position).length() < 2e-6, "{a:?} {b:?}");
-        assert!((a.head.rotation - b.head.rotation).length() < 1e-9, "{a:?} {b:?}");
+fn bundled_flights_are_baked_from_their_waypoints() {
+    for name in ["hall", "street", "city"] {
+        let path = format!(concat!(env!("CARGO_MANIFEST_DIR"), "/../recordings/{}.waypoints.json"), name);
+        let (baked, bundled) = (bake(path).unwrap(), load(name).unwrap());
+        assert_eq!(baked.file().source, bundled.file().source);
+        assert_eq!((baked.rain(), baked.frame_count()), (bundled.rain(), bundled.frame_count()));
+        // Platforms' sines may differ in a last bit, and what is rounded by one step.
+        for (a, b) in baked.file().frames.iter().zip(&bundled.file().frames) {
+            assert!((a.head.position - b.head.position).length() < 2e-6, "{name}: {a:?} {b:?}");
+            assert!((a.head.rotation - b.head.rotation).length() < 1e-9, "{name}: {a:?} {b:?}");
+        }
     }
+}
+
+#[test]
+fn the_camera_jumps_at_a_cut_and_stands_before_it() {
+    let cut = r#""waypoints": [
+        {"position": [0, 2, 0], "target": [0, 2, -5], "time_s": 0},
+        {"position": [1, 2, 0], "target": [1, 2, -5], "time_s": 0.25},
+        {"position": [9, 3, 0], "target": [9, 3, 5], "time_s": 0.5, "cut": true},
+        {"position": [8, 1, 0], "target": [2, 1, 0], "time_s": 0.75, "cut": true},
+        {"position": [7, 1, 0], "target": [2, 1, 0], "time_s": 1}]"#;
+    let recording = bake_text(&format!("{{{HEAD}, {cut}}}")).unwrap();
+    let places: Vec<[f64; 3]> =
+        recording.file().frames.iter().map(|frame| frame.head.position.to_array()).collect();
+    let x = [0.0, 0.5, 1.0, 1.0, 9.0, 9.0, 8.0, 7.5, 7.0];
+    let y = [2.0, 2.0, 2.0, 2.0, 3.0, 3.0, 1.0, 1.0, 1.0];
+    let expected: Vec<[f64; 3]> = x.into_iter().zip(y).map(|(x, y)| [x, y, 0.0]).collect();
+    assert_eq!(places, expected);
+    let ahead = |frame: usize| recording.file().frames[frame].head.rotation * DVec3::NEG_Z;
+    assert!((ahead(3) - DVec3::NEG_Z).length() < 1e-6 && (ahead(4) - DVec3::Z).length() < 1e-6);
+    let first = cut.replacen(r#""time_s": 0}"#, r#""time_s": 0, "cut": true}"#, 1);
+    assert!(refusal(&format!("{{{HEAD}, {first}}}")).contains("waypoints[0].cut: there is nothing before"));
 }
 
 #[test]

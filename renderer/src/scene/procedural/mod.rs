@@ -1,13 +1,15 @@
-//! Built-in scenes, generated in code: a Parisian street, a temple of the sun and a galleried hall.
+//! Built-in scenes, generated in code: a Parisian street, a temple of the sun, a galleried hall and a city of
+//! ziggurats.
 //!
 //! Street and temple stand where the scenes of Gelderen's chapter 6 and appendix C stood (metres, +Y up, inside the rain
 //! box x -60..80, y -20..60, z -60..60 with a little of the temple's forecourt beyond it), so that the
 //! `bistro` and `suntem` recordings fly through their free space; the `hall` recording flies through the hall, which lies
-//! around the origin. Generation uses no platform's
+//! around the origin, as does the city with a recording of its name. Generation uses no platform's
 //! trigonometry and a portable random generator: the same bytes on every machine.
 
 mod architecture;
 mod builder;
+mod city;
 mod clearance;
 mod hall;
 mod maths;
@@ -48,8 +50,8 @@ impl Size {
 }
 
 /// Every name that [`by_name`] knows.
-pub const NAMES: [&str; 7] =
-    ["street", "street-medium", "street-large", "temple", "temple-medium", "temple-large", "hall"];
+pub const NAMES: [&str; 8] =
+    ["street", "street-medium", "street-large", "temple", "temple-medium", "temple-large", "hall", "city"];
 
 /// A street with facades, shops, trees and a café, which the `bistro` recording flies through.
 pub fn street(size: Size) -> Scene {
@@ -67,6 +69,12 @@ pub fn hall() -> Scene {
     hall::build().finish("hall")
 }
 
+/// A city of stepped towers between streets around a great ziggurat, of about 180 thousand triangles, such as Tegelaers
+/// measures hashed light assignment in, for the `city` recording.
+pub fn city() -> Scene {
+    city::build().finish("city")
+}
+
 /// The built-in scene of that name (one of [`NAMES`]), if there is one.
 pub fn by_name(name: &str) -> Option<Scene> {
     Some(match name {
@@ -77,6 +85,7 @@ pub fn by_name(name: &str) -> Option<Scene> {
         "temple-medium" => temple(Size::Medium),
         "temple-large" => temple(Size::Large),
         "hall" => hall(),
+        "city" => city(),
         _ => return None,
     })
 }

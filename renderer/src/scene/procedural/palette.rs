@@ -100,6 +100,10 @@ pub(super) enum Surface {
     Veil,
     /// Vases.
     Glaze,
+    /// Blue walls of the city.
+    GlazedBrick,
+    /// Red walls of the city.
+    RedPlaster,
 }
 
 /// How a surface looks.
@@ -209,6 +213,8 @@ impl Surface {
             Self::Ochre => Look::new(Pattern::Damask, 0.9, [0.72, 0.42, 0.08]).thin(),
             Self::Veil => Look::new(Pattern::Gauze, 1.2, [0.95, 0.88, 0.78]).blended().thin(),
             Self::Glaze => Look::new(Pattern::Porcelain, 0.8, WHITE),
+            Self::GlazedBrick => Look::new(Pattern::Glazed, 2.4, WHITE),
+            Self::RedPlaster => Look::new(Pattern::Plaster, 3.0, [0.72, 0.34, 0.22]),
         }
     }
 }

@@ -72,6 +72,8 @@ pub(super) enum Pattern {
     Gauze,
     /// White glaze with blue bands.
     Porcelain,
+    /// Glazed bricks in blues, a few golden.
+    Glazed,
 }
 
 impl Pattern {
@@ -113,6 +115,7 @@ impl Pattern {
             Self::Damask => cloth::damask,
             Self::Gauze => cloth::gauze,
             Self::Porcelain => plain::porcelain,
+            Self::Glazed => masonry::glazed,
         }
     }
 }

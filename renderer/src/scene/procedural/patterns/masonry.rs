@@ -70,6 +70,16 @@ pub(super) fn brick(u: f32, v: f32) -> Texel {
     stones(&piece, 0.007, [clay, [0.62, 0.58, 0.52]], grain)
 }
 
+pub(super) fn glazed(u: f32, v: f32) -> Texel {
+    let grain = fractal(u, v, 24, 3, 47);
+    let piece = bond([u, v], [6, 16], 0.5);
+    let blue = blend([0.10, 0.24, 0.56], [0.16, 0.47, 0.66], piece.random(13));
+    let golden = piece.row == 7 && piece.column % 2 == 0;
+    let glaze = if golden { [0.85, 0.62, 0.22] } else { blue };
+    let texel = stones(&piece, 0.006, [glaze, [0.30, 0.27, 0.24]], grain);
+    Texel { roughness: texel.roughness - 0.42 * (1.0 - 0.5 * grain), ..texel }
+}
+
 pub(super) fn zinc(u: f32, v: f32) -> Texel {
     let piece = bond([u, v], [4, 1], 0.0);
     let seam = 1.0 - smoothstep(0.0, 0.016, piece.inside[0].min(1.0 - piece.inside[0]) / 4.0);

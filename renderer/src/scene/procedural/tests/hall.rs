@@ -2,25 +2,11 @@
 
 use super::*;
 use crate::recording::load;
-use glam::DVec3;
 
 static HALL: LazyLock<Scene> = LazyLock::new(hall);
 
 /// Farther than the near plane's corner: 0.2 m, and 0.46 m from a Vive eye.
 const CLEARANCE: f32 = 0.6;
-
-/// Each fifth frame of the recording: x, y, z, yaw.
-fn flight() -> Vec<[f32; 4]> {
-    let recording = load("hall").unwrap();
-    let frames = recording.file().frames.iter().step_by(5);
-    frames
-        .map(|frame| {
-            let [x, y, z] = frame.head.position.as_vec3().to_array();
-            let ahead = frame.head.rotation * DVec3::NEG_Z;
-            [x, y, z, (-ahead.x).atan2(-ahead.z) as f32]
-        })
-        .collect()
-}
 
 #[test]
 fn it_is_whole() {
@@ -48,8 +34,8 @@ fn it_is_as_large_as_it_says() {
 
 #[test]
 fn its_recording_flies_through_free_space_near_walls() {
-    check_clearance(&HALL, &flight(), CLEARANCE);
-    assert!(nearest(&HALL, &flight()) < 1.0);
+    check_clearance(&HALL, &recorded("hall"), CLEARANCE);
+    assert!(nearest(&HALL, &recorded("hall")) < 1.0);
 }
 
 #[test]
