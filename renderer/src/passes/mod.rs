@@ -11,9 +11,11 @@ pub mod cull_lights;
 pub mod depth;
 pub mod depth_steps;
 pub mod draws;
+pub mod gbuffer;
 mod handles;
 pub mod hierarchy;
 mod inputs;
+pub mod light;
 pub mod lights;
 pub mod limit;
 pub mod lines;
@@ -31,5 +33,5 @@ pub mod shade;
 pub mod spheres;
 pub mod take_places;
 
-pub use handles::{Color, Depth, LightLists, Lights, VisibleClusters};
+pub use handles::{Color, Depth, GBuffer, LightLists, Lights, VisibleClusters};
 pub use inputs::{ColorTarget, DrawBuffers, Draws, Eyes, Frame, ImageLayer, ViewTargets};

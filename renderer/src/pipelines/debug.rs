@@ -4,10 +4,10 @@ use super::{Output, PipelineStore, Variant};
 use crate::Result;
 use crate::draw_list::SurfaceKind;
 use crate::layouts::Pipeline;
-use crate::shading::Shading;
+use crate::shading::{Shading, ShadingPipeline};
 use crate::targets::TargetName;
 use crate::texture_sets::TextureSet;
-use crate::vk::GraphicsDesc;
+use crate::vk::{Blend, GraphicsDesc};
 use ash::vk;
 use std::mem::offset_of;
 use std::sync::Arc;
@@ -48,7 +48,8 @@ pub struct DebugPipelines {
 impl PipelineStore {
     /// The pipelines of stills of a variant, which counts. They draw over a prepass of their own.
     pub fn debug(&mut self, variant: &Variant) -> Result<DebugPipelines> {
-        let variant = &Variant { shading: Shading::Prepass, ..*variant };
+        let (shading, pipeline) = (Shading::Prepass, ShadingPipeline::Forward);
+        let variant = &Variant { shading, pipeline, ..*variant };
         let defines = variant.defines();
         let clay = "debug/clay.frag";
         let clusters = "debug/pixel_clusters.comp";
@@ -134,7 +135,7 @@ impl PipelineStore {
 fn overlay(variant: &Variant) -> GraphicsDesc<'static> {
     GraphicsDesc {
         depth_compare: Some(vk::CompareOp::GREATER_OR_EQUAL),
-        blend: true,
+        blend: Blend::Over,
         samples: vk::SampleCountFlags::from_raw(variant.samples),
         ..Default::default()
     }
