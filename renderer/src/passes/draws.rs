@@ -166,6 +166,10 @@ pub fn overlays(r: &mut Recorder, frame: &Frame, view: usize, overlays: &[Overla
 pub struct ScreenPass<'a> {
     /// Pipeline that draws, which tests depth.
     pub pipeline: &'a Pipeline,
+    /// What becomes of the radiance that is drawn over.
+    pub radiance: ColorUse,
+    /// Which of several things the shader draws; 0 where there is one.
+    pub step: u32,
     /// Colour targets of the view that are sampled, beside its depth.
     pub sampled: &'a [TargetName],
     /// Buffers that are read alone.
@@ -176,7 +180,7 @@ pub struct ScreenPass<'a> {
 
 /// Draws over a view's radiance, by what other targets of it hold.
 pub fn screen(r: &mut Recorder, frame: &Frame, view: usize, pass: &ScreenPass) {
-    let colors = &[(TargetName::Radiance, ColorUse::Keep)];
+    let colors = &[(TargetName::Radiance, pass.radiance)];
     let attached = Attached { eyes: Eyes::One(view), colors, depth: DepthUse::Test };
     attached.check(r, [pass.pipeline]);
     let (targets, buffers) = (&frame.targets[view], frame.buffers_of_view(view));
@@ -191,7 +195,8 @@ pub fn screen(r: &mut Recorder, frame: &Frame, view: usize, pass: &ScreenPass) {
     let declared = Declared { reads: pass.reads, writes: pass.writes };
     r.prepare([pass.pipeline], &buffers, declared, attached.accesses(frame).map(Some));
     begin_rendering(r, frame, &attached);
-    r.bind(vk::PipelineBindPoint::GRAPHICS, pass.pipeline, &buffers, Push::view(view));
+    let push = Push { step: pass.step, ..Push::view(view) };
+    r.bind(vk::PipelineBindPoint::GRAPHICS, pass.pipeline, &buffers, push);
     r.bind_set(vk::PipelineBindPoint::GRAPHICS, pass.pipeline, SET_TARGETS, targets.set);
     let (device, commands) = (&r.context.device, r.commands());
     unsafe {

@@ -23,6 +23,7 @@ use super::shade::CLEARED;
 use crate::buffers::BufferSet;
 use crate::draw_list::SurfaceKind;
 use crate::pass::Recorder;
+use crate::shading::Shading;
 use crate::targets::TargetName;
 
 /// What is drawn into, the model last.
@@ -36,25 +37,29 @@ const DRAWN: [(TargetName, ColorUse); 5] = [
 
 /// Draws the surfaces of all views as they come, whatever hides them later, which lays down depth.
 pub fn drawn_over(r: &mut Recorder, frame: &Frame) -> GBuffer {
-    frame.eyes().fold(GBuffer::NONE, |filled, eyes| filled | fill(r, frame, eyes, DepthUse::Write))
+    frame.eyes().fold(GBuffer::NONE, |filled, eyes| filled | record(r, frame, eyes))
 }
 
 /// Draws what is seen of all views, whose `depth` is there.
 pub fn of_what_is_seen(r: &mut Recorder, frame: &Frame, depth: Depth) -> GBuffer {
     frame.eyes().fold(GBuffer::NONE, |filled, eyes| {
         debug_assert!(depth.covers(frame, eyes));
-        filled | fill(r, frame, eyes, DepthUse::Test)
+        filled | record(r, frame, eyes)
     })
 }
 
-fn fill(r: &mut Recorder, frame: &Frame, eyes: Eyes, depth: DepthUse) -> GBuffer {
+/// Fills the G-buffers of some views: with what is seen by the depth that is there, or, with overdraw, laying it down.
+pub fn record(r: &mut Recorder, frame: &Frame, eyes: Eyes) -> GBuffer {
     r.scope(eyes.stage("gbuffer"), |r| {
         let pipelines = frame.pipelines.deferred();
         let [opaque, masked] = pipelines.fill.each_ref().map(SurfacePipelines::ByTextures);
         let pass = SurfacePass {
             eyes,
             colors: &DRAWN[..=pipelines.kept.len()],
-            depth,
+            depth: match frame.shading {
+                Shading::Prepass => DepthUse::Test,
+                Shading::Overdraw => DepthUse::Write,
+            },
             draws: &[(SurfaceKind::Opaque, opaque), (SurfaceKind::Masked, masked)],
             reads: BufferSet::EMPTY,
             writes: BufferSet::EMPTY,

@@ -7,7 +7,7 @@
 //!
 //! It walks the lists as forward shading does, and counts the same; with MSAA it runs for each sample.
 
-use super::draws::{self, ScreenPass};
+use super::draws::{self, ColorUse, ScreenPass};
 use super::handles::{Color, GBuffer, LightLists};
 use super::inputs::{Eyes, Frame};
 use super::shade::COUNTED;
@@ -23,6 +23,8 @@ pub fn record(r: &mut Recorder, frame: &Frame, surfaces: GBuffer, lists: LightLi
         r.scope(("light", view), |r| {
             let pass = ScreenPass {
                 pipeline: &pipelines.light,
+                radiance: ColorUse::Keep,
+                step: 0,
                 sampled: pipelines.kept,
                 reads: frame.list_places() | set(&[B::Lights, B::LightIndices]),
                 writes: COUNTED,

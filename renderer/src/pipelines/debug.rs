@@ -41,6 +41,8 @@ pub struct DebugPipelines {
     pub lines: [Arc<Pipeline>; 2],
     /// Draws the influence volumes of lights.
     pub spheres: Arc<Pipeline>,
+    /// Shows what a G-buffer holds, where shading is deferred.
+    pub gbuffer_picture: Option<Arc<Pipeline>>,
     /// All pipelines, each once.
     pub all: Vec<Arc<Pipeline>>,
 }
@@ -48,6 +50,7 @@ pub struct DebugPipelines {
 impl PipelineStore {
     /// The pipelines of stills of a variant, which counts. They draw over a prepass of their own.
     pub fn debug(&mut self, variant: &Variant) -> Result<DebugPipelines> {
+        let deferred = variant.pipeline == ShadingPipeline::Deferred;
         let (shading, pipeline) = (Shading::Prepass, ShadingPipeline::Forward);
         let variant = &Variant { shading, pipeline, ..*variant };
         let defines = variant.defines();
@@ -76,6 +79,7 @@ impl PipelineStore {
             },
             lines: [self.lines(variant, true)?, self.lines(variant, false)?],
             spheres: self.spheres(variant)?,
+            gbuffer_picture: deferred.then(|| self.gbuffer_picture(variant)).transpose()?,
             all: vec![],
         };
         pipelines.all = self.take_asked();

@@ -1,10 +1,9 @@
 //! The variants of deferred shading: what fills the G-buffer, and what shades what it holds.
 
-use super::{PipelineStore, Variant};
+use super::{Defines, Output, PipelineStore, Variant};
 use crate::Result;
 use crate::draw_list::SurfaceKind;
 use crate::layouts::Pipeline;
-use crate::pipelines::Output;
 use crate::targets::{TargetName, filled};
 use crate::texture_sets::TextureSet;
 use crate::vk::{Blend, GraphicsDesc};
@@ -44,21 +43,41 @@ impl PipelineStore {
         let defines = variant.defines().with("GBUFFER", 1).with("LIGHTS_AT_ONCE", variant.lights_at_once);
         let path = "shade/light.frag";
         self.once(format!("{path} {:?} {defines:?}", variant.attenuation), |store, number| {
-            let vertex = store.shaders.compile("shade/screen.vert", &defines.0)?;
-            let fragment = store.shaders.compile(path, &defines.0)?;
-            let desc = GraphicsDesc {
-                vertex: &vertex,
-                fragment: Some(&fragment),
-                spec: &[(0, variant.attenuation as u32)],
-                cull_mode: vk::CullModeFlags::NONE,
-                // The triangle lies where nothing is: whatever is seen is nearer.
-                depth_compare: Some(vk::CompareOp::LESS),
-                blend: Blend::Add,
-                samples: vk::SampleCountFlags::from_raw(variant.samples),
-                sample_shading: variant.per_sample(),
-                ..Default::default()
-            };
-            store.rasterizing(desc, &[TargetName::Radiance], (path, number))
+            let spec = [(0, variant.attenuation as u32)];
+            let desc = GraphicsDesc { spec: &spec, blend: Blend::Add, ..screen(variant) };
+            store.screen((path, number), &defines, desc)
         })
+    }
+
+    /// What shows what a G-buffer holds.
+    pub(super) fn gbuffer_picture(&mut self, variant: &Variant) -> Result<Arc<Pipeline>> {
+        let (path, defines) = ("debug/gbuffer_picture.frag", variant.surface_defines());
+        self.once(format!("{path} {defines:?}"), |store, number| {
+            store.screen((path, number), &defines, screen(variant))
+        })
+    }
+
+    /// A pipeline that draws over all pixels that show a surface.
+    fn screen(
+        &self,
+        (path, number): (&str, usize),
+        defines: &Defines,
+        desc: GraphicsDesc,
+    ) -> Result<Pipeline> {
+        let vertex = self.shaders.compile("shade/screen.vert", &defines.0)?;
+        let fragment = self.shaders.compile(path, &defines.0)?;
+        let desc = GraphicsDesc { vertex: &vertex, fragment: Some(&fragment), ..desc };
+        self.rasterizing(desc, &[TargetName::Radiance], (path, number))
+    }
+}
+
+/// A triangle over all pixels, which lies where nothing is: whatever is seen is nearer.
+fn screen(variant: &Variant) -> GraphicsDesc<'static> {
+    GraphicsDesc {
+        cull_mode: vk::CullModeFlags::NONE,
+        depth_compare: Some(vk::CompareOp::LESS),
+        samples: vk::SampleCountFlags::from_raw(variant.samples),
+        sample_shading: variant.per_sample(),
+        ..Default::default()
     }
 }

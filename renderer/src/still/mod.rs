@@ -6,7 +6,7 @@
 //!
 //! ```text
 //! frame (as replayed) ─> counts
-//!    └─> camera: depth, clay, pixel_clusters[c], overlay ─> compose ─> PNG, EXR
+//!    └─> camera: depth, clay, pixel_clusters[c], overlay, (gbuffer) ─> compose ─> PNG, EXR
 //! ```
 
 pub(crate) mod camera;
@@ -24,6 +24,7 @@ use crate::inputs::Inputs;
 use crate::measure::{FrameCounts, ViewPixels};
 use crate::methods::{Method, Scenery};
 use crate::output::PlannedRun;
+use crate::shading::ShadingPipeline;
 use crate::{Error, Result};
 use camera::Camera;
 use clap::ValueEnum;
@@ -47,6 +48,9 @@ pub enum Item {
     FragmentCount,
     /// Magenta where no visible cluster exists.
     Missing,
+    /// What the G-buffer of deferred shading holds, side by side: base colours, normals (their axes as red, green and blue) and
+    /// depth (white nearest).
+    Gbuffer,
 }
 
 /// What the surfaces of a still show.
@@ -63,6 +67,8 @@ pub enum Base {
     LightCount,
     /// A heat map of fragments.
     FragmentCount,
+    /// What a G-buffer holds, side by side.
+    Gbuffer,
 }
 
 /// All that a still shows.
@@ -91,6 +97,7 @@ impl Show {
                 Item::Slices => Base::Slices,
                 Item::LightCount => Base::LightCount,
                 Item::FragmentCount => Base::FragmentCount,
+                Item::Gbuffer => Base::Gbuffer,
                 Item::Frusta => {
                     show.frusta = true;
                     continue;
@@ -106,16 +113,27 @@ impl Show {
             };
             if show.base != Base::Picture && show.base != base {
                 return Err(Error::input(
-                    "show: clusters, slices, light-count and fragment-count exclude each other: choose one of them",
+                    "show: clusters, slices, light-count, fragment-count and gbuffer exclude each other: choose one of them",
                 ));
             }
             show.base = base;
         }
+        if show.base == Base::Gbuffer && (show.frusta || show.lights || show.missing) {
+            return Err(Error::input("show: gbuffer is shown by itself: leave the others out"));
+        }
         Ok(show)
     }
 
-    /// Refuses what a method without clusters cannot show.
-    fn check(&self, method: &Method) -> Result<()> {
+    /// Refuses what a method without clusters, or a pipeline without a G-buffer, cannot show.
+    fn check(&self, method: &Method, pipeline: ShadingPipeline) -> Result<()> {
+        if self.base == Base::Gbuffer {
+            return match pipeline {
+                ShadingPipeline::Deferred => Ok(()),
+                ShadingPipeline::Forward => Err(Error::input(
+                    "show: forward shading has no G-buffer: add --pipeline deferred, or leave gbuffer out",
+                )),
+            };
+        }
         if !method.has_lists() && (self.base != Base::Picture || self.missing) {
             return Err(Error::input(format!(
                 "show: {method} has no clusters: choose a clustered method, or show frusta and lights alone"
@@ -129,7 +147,7 @@ impl Show {
 pub struct Still {
     /// Name of the camera.
     pub view: String,
-    /// Picture as a display shows it.
+    /// Picture as a display shows it; of a G-buffer three pictures side by side.
     pub image: RgbImage,
     /// Colour in linear light, and everything known of the pixels.
     pub pixels: ViewPixels,
@@ -142,7 +160,7 @@ pub struct Still {
 /// # Errors
 /// Bad input, a camera that is not known, something that the method cannot show, and whatever fails on the device.
 pub fn render(inputs: &Inputs, run: &PlannedRun, viewpoint: Viewpoint, show: &Show) -> Result<Still> {
-    show.check(&run.method)?;
+    show.check(&run.method, run.config.pipeline[0])?;
     let config = &drawn_plainly(&run.config);
     let plans = plan_frames(config, &inputs.recording)?;
     let plan = &plans[0];
@@ -213,7 +231,12 @@ mod tests {
         assert_eq!(show, Show { base: Base::Clusters, frusta: true, lights: false, missing: true });
         assert!(Show::from_items(&[Item::Clusters, Item::LightCount]).is_err());
         assert!(Show::from_items(&[Item::Clusters, Item::Slices]).is_err());
-        assert!(show.check(&Method::AllLights).is_err());
-        assert!(Show::from_items(&[Item::Frusta, Item::Lights]).unwrap().check(&Method::AllLights).is_ok());
+        let check = |show: &Show, pipeline| show.check(&Method::AllLights, pipeline).is_ok();
+        assert!(!check(&show, ShadingPipeline::Deferred));
+        let lights = Show::from_items(&[Item::Frusta, Item::Lights]).unwrap();
+        assert!(check(&lights, ShadingPipeline::Forward));
+        let gbuffer = Show::from_items(&[Item::Gbuffer]).unwrap();
+        assert!(check(&gbuffer, ShadingPipeline::Deferred) && !check(&gbuffer, ShadingPipeline::Forward));
+        assert!(Show::from_items(&[Item::Lights, Item::Gbuffer]).is_err());
     }
 }

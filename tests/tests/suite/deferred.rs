@@ -4,7 +4,8 @@
 use manylight::assign::Marking;
 use manylight::config::{Config, ExrFrames, FrameRange, Scopes};
 use manylight::culling::Culling;
-use manylight::lights::Lighting;
+use manylight::lights::{Attenuation, Lighting};
+use manylight::material::MaterialModel;
 use manylight::selftest::picture_fault;
 use manylight::shading::{Shading, ShadingPipeline};
 use manylight_tests::{Run, difference, run, three_frames};
@@ -100,6 +101,16 @@ fn four_samples() {
 #[test]
 fn marked_from_geometry() {
     check(config("bistro-vive", 1, Marking::Geometry, &["all-lights", "encl-displ-64-32"]));
+}
+
+/// Tegelaers' shading.
+#[test]
+fn a_white_material() {
+    check(Config {
+        material: MaterialModel::White,
+        attenuation: Attenuation::Tegelaers,
+        ..config("bistro", 1, Marking::Depth, &["all-lights", "tiled-16"])
+    });
 }
 
 /// Whatever is drawn with views one by one is drawn with all at once, some of them in a mirror, and culled on the host.
