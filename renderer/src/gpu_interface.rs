@@ -20,8 +20,8 @@ use std::fmt::Write as _;
 pub const SET_BUFFERS: u32 = 0;
 /// Descriptor set of a material: its five textures and its [`MaterialData`].
 pub const SET_MATERIAL: u32 = 1;
-/// Descriptor set of a view's depth image.
-pub const SET_DEPTH: u32 = 2;
+/// Descriptor set of a view's targets: its depth image, and behind it its colour targets, of which shaders sample some.
+pub const SET_TARGETS: u32 = 2;
 /// Rendering cameras of a frame, at most: a uniform buffer of 16 KiB, which every device binds, holds them.
 pub const MAX_VIEWS: u32 = 32;
 /// Threads of a workgroup of the prefix sum.
@@ -96,7 +96,7 @@ pub const COUNTER_COUNT: usize = DeviceCounts::NAMES.len();
 const CONSTANTS: [(&str, u32); 32] = [
     ("SET_BUFFERS", SET_BUFFERS),
     ("SET_MATERIAL", SET_MATERIAL),
-    ("SET_DEPTH", SET_DEPTH),
+    ("SET_TARGETS", SET_TARGETS),
     ("MAX_VIEWS", MAX_VIEWS),
     ("SCAN_WORKGROUP", SCAN_WORKGROUP),
     ("SCAN_BLOCK", SCAN_BLOCK),

@@ -1,4 +1,4 @@
-//! Descriptor set layouts and sets: of a pipeline's buffers, of a material's textures, of a view's depth.
+//! Descriptor set layouts and sets: of a pipeline's buffers, of a material's textures, of a view's targets.
 
 mod pipeline;
 mod uses;
@@ -6,6 +6,7 @@ mod uses;
 pub use pipeline::{BoundBuffers, Pipeline, PipelineLayout};
 pub use uses::Uses;
 
+use crate::targets::TARGET_COUNT;
 use crate::vk::Context;
 use crate::{Error, Result};
 use ash::vk;
@@ -20,30 +21,31 @@ pub const MATERIAL_SET: [(vk::DescriptorType, u32); 2] = [
     (vk::DescriptorType::UNIFORM_BUFFER, 1),
 ];
 
-/// What set [`crate::gpu_interface::SET_DEPTH`] holds.
-pub const DEPTH_SET: [(vk::DescriptorType, u32); 1] = [(vk::DescriptorType::SAMPLED_IMAGE, 1)];
+/// What set [`crate::gpu_interface::SET_TARGETS`] holds: depth and colour targets.
+pub const TARGETS_SET: [(vk::DescriptorType, u32); 1] =
+    [(vk::DescriptorType::SAMPLED_IMAGE, 1 + TARGET_COUNT as u32)];
 
 /// The descriptor set layouts that pipelines share.
 pub struct Layouts {
     context: Arc<Context>,
     /// Layout of the descriptor set [`crate::gpu_interface::SET_MATERIAL`].
     pub material: vk::DescriptorSetLayout,
-    /// Layout of the descriptor set [`crate::gpu_interface::SET_DEPTH`].
-    pub depth: vk::DescriptorSetLayout,
+    /// Layout of the descriptor set [`crate::gpu_interface::SET_TARGETS`].
+    pub targets: vk::DescriptorSetLayout,
 }
 
 impl Layouts {
     /// Makes the layouts that pipelines share.
     pub fn new(context: &Arc<Context>) -> Result<Self> {
         let material = set_layout(context, &dense(&MATERIAL_SET), "material textures")?;
-        let depth = set_layout(context, &dense(&DEPTH_SET), "depth image")?;
-        Ok(Self { context: context.clone(), material, depth })
+        let targets = set_layout(context, &dense(&TARGETS_SET), "targets")?;
+        Ok(Self { context: context.clone(), material, targets })
     }
 }
 
 impl Drop for Layouts {
     fn drop(&mut self) {
-        for set in [self.material, self.depth] {
+        for set in [self.material, self.targets] {
             unsafe { self.context.device.destroy_descriptor_set_layout(set, None) };
         }
     }

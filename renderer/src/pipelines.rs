@@ -3,12 +3,14 @@
 //! A variant is data: defines and specialization constants. Pipelines that several methods share are made once.
 
 mod debug;
+mod deferred;
 mod graphics;
 mod lists;
 mod probes;
 mod variant;
 
 pub use debug::{DebugPipelines, Line, SPHERE_VERTICES};
+pub use deferred::DeferredPipelines;
 pub use lists::{AcceleratedPipelines, ClusteredPipelines};
 pub use variant::{Variant, lights_at_once};
 
@@ -22,7 +24,7 @@ use crate::draw_list::SurfaceKind;
 use crate::geometry::views::ViewSet;
 use crate::layouts::{Layouts, Pipeline, PipelineLayout};
 use crate::methods::Groups;
-use crate::shading::Shading;
+use crate::shading::ShadingPipeline;
 use crate::texture_sets::TextureSet;
 use crate::vk::{self as gpu, Context, ShaderLibrary};
 use ash::vk;
@@ -77,7 +79,7 @@ pub struct Pipelines {
     pub depth_opaque: Arc<Pipeline>,
     /// Prepass of masked geometry.
     pub depth_masked: Arc<Pipeline>,
-    /// Forward shading, by [`SurfaceKind`] and by the textures of the material.
+    /// Forward shading, by [`SurfaceKind`] and by the textures of the material; deferred, of transparent ones alone.
     pub shade: [BTreeMap<TextureSet, Arc<Pipeline>>; 3],
     /// Counting masked surfaces with overdraw, by the textures of the material, where all is counted.
     pub count_masked: Option<BTreeMap<TextureSet, Arc<Pipeline>>>,
@@ -89,6 +91,7 @@ pub struct Pipelines {
     pub depth_steps: Option<Arc<Pipeline>>,
     /// The model of each pixel, of opaque and of masked surfaces, where groups are models and all is counted.
     pub pixel_models: Option<[Arc<Pipeline>; 2]>,
+    deferred: Option<DeferredPipelines>,
     clustered: Option<ClusteredPipelines>,
     count_fragments: Option<VisitPipelines>,
     bounds: Option<VisitPipelines>,
@@ -106,6 +109,11 @@ impl Pipelines {
     /// Culls on the device; only its pass asks.
     pub fn cull(&self) -> &Pipeline {
         self.cull.as_ref().expect("stage cull runs where the device culls")
+    }
+
+    /// Deferred shading; only its passes ask.
+    pub fn deferred(&self) -> &DeferredPipelines {
+        self.deferred.as_ref().expect("stages gbuffer and light run where shading is deferred")
     }
 
     /// The clustered methods' pipelines; only their passes ask.
@@ -209,19 +217,22 @@ impl PipelineStore {
             Culling::Cpu => None,
             Culling::Gpu => Some(self.compute("geometry/cull.comp", &Defines(vec![]))?),
         };
-        let overdraw_counted = variant.shading == Shading::Overdraw && variant.counting;
+        let counts_hidden = variant.counts_hidden();
+        let deferred = match variant.pipeline {
+            ShadingPipeline::Forward => None,
+            ShadingPipeline::Deferred => Some(self.deferred(variant)?),
+        };
         let mut pipelines = Pipelines {
             cull,
             depth_opaque: self.graphics(variant, None, Output::Depth)?,
             depth_masked: self.graphics(variant, Some("geometry/alpha_test.frag"), Output::Depth)?,
             shade: self.shade(variant)?,
-            count_masked: overdraw_counted
-                .then(|| self.shade_kind(variant, SurfaceKind::Masked))
-                .transpose()?,
-            seen: overdraw_counted.then(|| self.seen(variant)).transpose()?,
+            count_masked: counts_hidden.then(|| self.shade_kind(variant, SurfaceKind::Masked)).transpose()?,
+            seen: counts_hidden.then(|| self.seen(variant)).transpose()?,
             pixel_maps: self.compute("measure/pixel_maps.comp", &variant.defines())?,
             depth_steps: self.depth_steps(variant)?,
             pixel_models: self.pixel_models(variant)?,
+            deferred,
             clustered,
             count_fragments,
             bounds,
@@ -235,7 +246,10 @@ impl PipelineStore {
 
     fn shade(&mut self, variant: &Variant) -> Result<[BTreeMap<TextureSet, Arc<Pipeline>>; 3]> {
         let [opaque, masked, transparent] = SurfaceKind::ALL;
-        let mut of = |kind| self.shade_kind(&variant.drawing(kind), kind);
+        let mut of = |kind| match variant.shades(kind) {
+            true => self.shade_kind(&variant.drawing(kind), kind),
+            false => Ok(BTreeMap::new()),
+        };
         Ok([of(opaque)?, of(masked)?, of(transparent)?])
     }
 

@@ -52,12 +52,66 @@ targets! {
         usage: vk::ImageUsageFlags::TRANSFER_SRC,
         resolved: true,
     };
+    /// Of a G-buffer: base colour, and metalness in alpha.
+    BaseColor = TargetInfo {
+        name: "base_color",
+        format: vk::Format::R8G8B8A8_SRGB,
+        usage: vk::ImageUsageFlags::SAMPLED,
+        resolved: false,
+    };
+    /// Of a G-buffer: the shading normal in the world, a point of the octahedron.
+    Normal = TargetInfo {
+        name: "normal",
+        format: vk::Format::R16G16_SNORM,
+        usage: vk::ImageUsageFlags::SAMPLED,
+        resolved: false,
+    };
+    /// Of a G-buffer: perceptual roughness; 0 says that no light is evaluated.
+    Roughness = TargetInfo {
+        name: "roughness",
+        format: vk::Format::R16_UNORM,
+        usage: vk::ImageUsageFlags::SAMPLED,
+        resolved: false,
+    };
+    /// Of a G-buffer: the index of the model that is seen.
+    Model = TargetInfo {
+        name: "model",
+        format: vk::Format::R32_UINT,
+        usage: vk::ImageUsageFlags::SAMPLED,
+        resolved: false,
+    };
+}
+
+/// What fills a G-buffer draws into, for methods that ask for the model as well, and for others.
+pub fn filled(with_model: bool) -> &'static [TargetName] {
+    use TargetName as T;
+    match with_model {
+        true => &[T::Radiance, T::BaseColor, T::Normal, T::Roughness, T::Model],
+        false => &[T::Radiance, T::BaseColor, T::Normal, T::Roughness],
+    }
+}
+
+/// The part of the include that tells shaders where a view's colour targets are bound: behind its depth, which is binding 0.
+pub fn glsl() -> String {
+    let binding =
+        |name: TargetName| format!("#define TARGET_{} {}\n", name.info().name.to_uppercase(), name.binding());
+    TargetName::ALL.map(binding).concat()
 }
 
 impl TargetName {
     /// All that is declared of the target.
     pub fn info(self) -> &'static TargetInfo {
         &TARGETS[self as usize]
+    }
+
+    /// Where the descriptor set of a view's targets binds it.
+    pub fn binding(self) -> u32 {
+        self as u32 + 1
+    }
+
+    /// Whether shaders sample it.
+    pub fn is_sampled(self) -> bool {
+        self.info().usage.contains(vk::ImageUsageFlags::SAMPLED)
     }
 
     /// Bytes of a view's texels, one a pixel, at a width and height.

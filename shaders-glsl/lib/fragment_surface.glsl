@@ -2,11 +2,11 @@
 // that is, as in geometry/surface.vert.
 #pragma once
 
-#include "lib/cluster_space.glsl"
 #include "lib/fragment_position.glsl"
 #include "lib/material.glsl"
 #include "lib/surface.glsl"
 #include "lib/surface_inputs.glsl"
+#include "lib/view_position.glsl"
 
 layout(location = 2) in vec3 normal;
 #if HAS_TEXTURE(NORMAL)
@@ -45,6 +45,6 @@ vec3 shading_normal(TextureCoordinates at)
 
 Surface fragment_surface(TextureCoordinates at, ViewData view, vec3 base)
 {
-    vec3 position = (view.world_from_view * vec4(view_position(view, fragment_pixel(), gl_FragCoord.z), 1.0)).xyz;
+    vec3 position = world_position(view, fragment_pixel(), gl_FragCoord.z);
     return surface_seen(position, view.world_from_view[3].xyz, shading_normal(at), base, metallic_roughness(at));
 }

@@ -84,12 +84,13 @@ vec3 emissive(TextureCoordinates at)
 // A faint even light, so that occlusion maps and places that no light reaches can be seen.
 const float AMBIENT = 0.02;
 
-// Radiance of a surface of a linear base colour whatever lights there are.
+// Radiance of a surface of a linear base colour whatever lights there are. One that is unlit shows its base colour.
 vec3 radiance_without_lights(TextureCoordinates at, vec3 base)
 {
 #if MATERIAL == MATERIAL_WHITE
-    return vec3(WHITE_AMBIENT);
+    vec3 radiance = vec3(WHITE_AMBIENT);
 #else
-    return AMBIENT * base * occlusion(at) + emissive(at);
+    vec3 radiance = AMBIENT * base * occlusion(at) + emissive(at);
 #endif
+    return material.unlit != 0u ? base : radiance;
 }

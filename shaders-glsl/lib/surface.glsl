@@ -11,12 +11,15 @@ struct Surface {
     float alpha;    // squared perceptual roughness
 };
 
+// No surface is smoother.
+const float LEAST_ROUGHNESS = 0.05;
+
 // The surface at `position` seen from `eye`, both in the world, of a linear base colour; `factors` are metalness and
 // perceptual roughness.
 Surface surface_seen(vec3 position, vec3 eye, vec3 normal, vec3 base, vec2 factors)
 {
     float metallic = clamp(factors.x, 0.0, 1.0);
-    float roughness = clamp(factors.y, 0.05, 1.0);
+    float roughness = clamp(factors.y, LEAST_ROUGHNESS, 1.0);
     return Surface(position, normal, normalize(eye - position), base * (1.0 - metallic),
                    mix(vec3(0.04), base, metallic), roughness * roughness);
 }

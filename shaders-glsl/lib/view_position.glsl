@@ -12,3 +12,9 @@ vec3 view_position(ViewData view, vec2 pixel, float depth)
     precise vec3 position = vec3(tangent * distance, -distance);
     return position;
 }
+
+// The same in the world.
+vec3 world_position(ViewData view, vec2 pixel, float depth)
+{
+    return (view.world_from_view * vec4(view_position(view, pixel, depth), 1.0)).xyz;
+}

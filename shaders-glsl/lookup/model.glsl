@@ -1,5 +1,5 @@
-// The light list of a sample's model. A fragment knows its model; for what looks at pixels, measure/pixel_models.frag has put it
-// there.
+// The light list of a sample's model. A fragment knows its model, a G-buffer keeps it; for what else looks at pixels,
+// measure/pixel_models.frag has put it there.
 #pragma once
 
 #include "lib/visible_lists.glsl"
@@ -10,6 +10,14 @@
 uint group_of_sample(ViewData view, vec2 pixel, float depth)
 {
     return model_of_fragment;
+}
+
+#elif defined(GBUFFER)
+#include "lib/gbuffer.glsl"
+
+uint group_of_sample(ViewData view, vec2 pixel, float depth)
+{
+    return stored_model(ivec2(pixel));
 }
 
 #else

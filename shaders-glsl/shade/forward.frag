@@ -5,6 +5,7 @@
 // ALPHA_TEST: 1 for masked surfaces that no prepass has tested.
 #version 460
 #include "lib/fragment_surface.glsl"
+#include "lib/radiance.glsl"
 #include "lookup/$LOOKUP.glsl"
 #include "lib/shade_point.glsl"
 
@@ -19,9 +20,6 @@ layout(early_fragment_tests) in;
 #endif
 
 layout(location = 0) out vec4 out_color;
-
-// Shown where a fragment's cluster is missing (Gelderen figure 5.1).
-const vec3 MISSING_CLUSTER = vec3(1.0, 0.0, 1.0);
 
 void main()
 {
@@ -50,13 +48,9 @@ void main()
 #endif
     // What is unlit is shaded by no light. A branch around the loop would leave its lanes parted: llvmpipe then takes five
     // times as long for every light of every surface.
-    bool unlit = material.unlit != 0u;
-    if (unlit)
+    if (material.unlit != 0u)
         cursor.end = cursor.next;
     vec3 radiance = radiance_without_lights(at, base.rgb);
     radiance += shade_lights(fragment_surface(at, view, base.rgb), cursor);
-    if (unlit)
-        radiance = base.rgb;
-    // Half floats end at 65504; a light grazed at R0 may exceed that.
-    out_color = vec4(min(radiance, vec3(65504.0)), TRANSPARENT != 0 ? base.a : 1.0);
+    out_color = vec4(min(radiance, vec3(MOST_RADIANCE)), TRANSPARENT != 0 ? base.a : 1.0);
 }

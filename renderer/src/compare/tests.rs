@@ -140,7 +140,7 @@ fn runs_are_joined_by_test_where_a_set_has_several_and_across_tests_where_not() 
     assert!(
         comparison.runs[0]
             .run
-            .ends_with(", brute, exact, visible, implicit, geometric, prepass, offsets, ranks"),
+            .ends_with(", brute, exact, visible, implicit, geometric, prepass, forward, offsets, ranks"),
         "{}",
         comparison.runs[0].run
     );

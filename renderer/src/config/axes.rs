@@ -69,7 +69,7 @@ pub struct Axis {
 }
 
 /// Every axis: of the product the first varies slowest.
-pub static AXES: [Axis; 13] = [
+pub static AXES: [Axis; 15] = [
     Axis {
         name: "scene",
         description: "The scene as the configuration has it, or its file's name without extension; `*` stands for any \
@@ -227,6 +227,18 @@ pub static AXES: [Axis; 13] = [
         split: |config| each(&config.shading, |shading| Config { shading: vec![shading], ..config.clone() }),
         called: |run| vec![names(&run.shading)],
         label: |run, _| names(&run.shading),
+    },
+    Axis {
+        name: "pipeline",
+        description: "Who evaluates lights, forward or deferred; `*` stands for any text.",
+        column: "pipeline",
+        role: Role::Way,
+        values: Values::Names,
+        applies: |_| true,
+        count: |config| config.pipeline.len(),
+        split: |config| each(&config.pipeline, |way| Config { pipeline: vec![way], ..config.clone() }),
+        called: |run| vec![names(&run.pipeline)],
+        label: |run, _| names(&run.pipeline),
     },
     Axis {
         name: "lists",

@@ -6,6 +6,7 @@ use crate::assign::{Bounds, Clusters, Compaction, Marking, check_one_pass};
 use crate::geometry::{CellShape, SliceLaw, SphereTest};
 use crate::methods::Method;
 use crate::nearest;
+use crate::shading::ShadingPipeline;
 use clap::ValueEnum;
 use std::fmt;
 use std::str::FromStr;
@@ -107,22 +108,15 @@ fn has_models(method: &Method) -> bool {
 }
 
 impl Config {
-    /// Refuses a run whose test cannot serve its method's clusters, whose fragments may lie off their models, or whose visible
-    /// clusters cannot take their places in any order.
+    /// Refuses a run whose test cannot serve its method's clusters, whose fragments may lie off their models or samples, or whose
+    /// visible clusters cannot take their places in any order.
     ///
     /// # Errors
     /// Names both.
     pub fn check_case(&self) -> Result<(), String> {
         self.check_compaction()?;
         self.check_lists()?;
-        if self.msaa > 1 && self.marking == Marking::Geometry && self.methods.first().is_some_and(has_models)
-        {
-            return Err(format!(
-                "marking: from geometry, fragments of {} samples are shaded at the centre of their pixel, which may lie off the \
-                 model whose lights {} looks up: use depth",
-                self.msaa, self.methods[0]
-            ));
-        }
+        self.check_samples()?;
         match (self.methods.first(), self.test.first()) {
             (Some(method), Some(Test::Named(test))) if has_models(method) && *test != SphereTest::Exact => {
                 Err(format!(
@@ -135,6 +129,26 @@ impl Config {
             )),
             _ => Ok(()),
         }
+    }
+
+    /// Refuses fragments of several samples where each sample must lie on what it is shaded as.
+    fn check_samples(&self) -> Result<(), String> {
+        if self.msaa == 1 || self.marking == Marking::Depth {
+            return Ok(());
+        }
+        let why = match self.methods.first() {
+            Some(method) if has_models(method) => {
+                format!("which may lie off the model whose lights {method} looks up")
+            }
+            _ if self.pipeline.contains(&ShadingPipeline::Deferred) => {
+                "where no sample need lie that a G-buffer keeps for deferred shading".to_owned()
+            }
+            _ => return Ok(()),
+        };
+        Err(format!(
+            "marking: from geometry, fragments of {} samples are shaded at the centre of their pixel, {why}: use depth",
+            self.msaa
+        ))
     }
 
     fn check_lists(&self) -> Result<(), String> {
@@ -269,6 +283,17 @@ mod tests {
         {
             assert_eq!(refused(method, msaa, marking), None, "{method} {msaa} {marking:?}");
         }
+    }
+
+    #[test]
+    fn deferred_samples_lie_where_they_are_marked() {
+        let refused = |msaa, marking| {
+            let pipeline = vec![ShadingPipeline::Deferred];
+            let config = Config { msaa, marking, pipeline, ..config(&["g-20"], &["auto"]) };
+            config.cases()[0].check_case().err()
+        };
+        assert!(refused(4, Marking::Geometry).unwrap().contains("G-buffer"));
+        assert_eq!((refused(4, Marking::Depth), refused(1, Marking::Geometry)), (None, None));
     }
 
     #[test]

@@ -5,7 +5,7 @@ use super::{Assign, Choice, Config, Layer};
 use crate::assign::{Bounds, Clusters, Compaction};
 use crate::lights::Attenuation;
 use crate::methods::{KINDS, Kind, Size};
-use crate::shading::Shading;
+use crate::shading::{Shading, ShadingPipeline};
 use clap::ValueEnum;
 use schemars::{Schema, SchemaGenerator, json_schema};
 use serde_json::Value;
@@ -149,6 +149,10 @@ pub(super) fn assign(_: &mut SchemaGenerator) -> Schema {
 
 pub(super) fn shading(_: &mut SchemaGenerator) -> Schema {
     names_of(Shading::value_variants())
+}
+
+pub(super) fn pipeline(_: &mut SchemaGenerator) -> Schema {
+    names_of(ShadingPipeline::value_variants())
 }
 
 fn names_of<T: ToString>(values: &[T]) -> Schema {

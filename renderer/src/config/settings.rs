@@ -13,7 +13,7 @@ use crate::lights::{Attenuation, GeneratorKind, LatticeBox, LightBox, LightMotio
 use crate::material::MaterialModel;
 use crate::measure::Order;
 use crate::methods::{GridBox, KINDS, Method, OctreeWay, Sharing, Space};
-use crate::shading::Shading;
+use crate::shading::{Shading, ShadingPipeline};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -149,8 +149,8 @@ settings! {
     culling: Culling = Culling::Gpu, Measures {
         arg(long, value_enum)
     }
-    /// Draw all views in one pass: the prepass, and opaque and masked shading where the views share a clustering. What
-    /// is seen is the same.
+    /// Draw all views in one pass: the prepass, the G-buffer, and opaque and masked shading where the views share a clustering.
+    /// What is seen is the same.
     multiview: bool = false, Measures {
         arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")
     }
@@ -306,6 +306,16 @@ settings! {
         arg(long, value_enum, value_name = "LIST", value_delimiter = ',')
         serde(default, deserialize_with = "de::ways")
         schemars(schema_with = "schema::shading")
+        write(serialize_with = "ser::one_or_several")
+        check(values::check_ways)
+    }
+    /// Who evaluates lights for opaque and masked surfaces: `forward`, their fragments; or `deferred`, a pass over all pixels, by a
+    /// G-buffer that keeps what is seen of them; with overdraw that is drawn in place of the prepass. Light lists are the same, and
+    /// so are pictures but for what the G-buffer rounds. Of several, with commas between, each is a run of every method.
+    pipeline: Vec<ShadingPipeline> = vec![ShadingPipeline::Forward], Run {
+        arg(long, value_enum, value_name = "LIST", value_delimiter = ',')
+        serde(default, deserialize_with = "de::ways")
+        schemars(schema_with = "schema::pipeline")
         write(serialize_with = "ser::one_or_several")
         check(values::check_ways)
     }

@@ -44,7 +44,7 @@ use crate::octree::LinklessOctree;
 use crate::pass::{Recorder, ScopeTree, Timed};
 use crate::passes::{Draws, Frame};
 use crate::pipelines::Pipelines;
-use crate::shading::Shading;
+use crate::shading::{Shading, ShadingPipeline};
 use crate::vk::{Buffer, Context, Memory};
 use crate::{Result, frame};
 use ash::vk;
@@ -67,6 +67,7 @@ pub struct Engine {
     grid_box: GridBox,
     assigner: Assigner,
     shading: Shading,
+    pipeline: ShadingPipeline,
     resolution: [u32; 2],
     timed: Timed,
     pipelines: Pipelines,
@@ -123,6 +124,7 @@ impl Engine {
             marking: run.marking,
             assigner: chosen.assigner,
             shading: run.shading[0],
+            pipeline: run.pipeline[0],
             resolution: run.resolution,
             timed: timed(run.scopes),
             staging: [staging()?, staging()?],
@@ -295,6 +297,7 @@ impl Engine {
             marking: self.marking,
             assigner: self.assigner,
             shading: self.shading,
+            pipeline: self.pipeline,
             shaded: self.shaded,
             lights: &self.lights,
             light_staging: &self.staging[slot],

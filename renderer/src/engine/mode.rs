@@ -147,6 +147,7 @@ impl Chosen {
             test: self.test,
             lights_at_once: lights_at_once(self.method.has_lists(), mode.lights),
             shading: run.shading[0],
+            pipeline: run.pipeline[0],
             attenuation: run.attenuation,
             material: run.material,
             counting: mode.counting,

@@ -11,7 +11,7 @@ use crate::drawables::Drawables;
 use crate::geometry::views::ViewSet;
 use crate::gpu_interface::{DrawCommand, DrawCounts, MAX_VIEWS};
 use crate::gpu_scene::GpuScene;
-use crate::layouts::{DEPTH_SET, DescriptorSets, Layouts};
+use crate::layouts::{DescriptorSets, Layouts, TARGETS_SET};
 use crate::machine::Probe;
 use crate::methods::OctreeWay;
 use crate::methods::hashed::SceneGeometry;
@@ -21,7 +21,7 @@ use crate::pipelines::PipelineStore;
 use crate::scene::Scene;
 use crate::texture_sets::drawn_sets;
 use crate::vk::{Context, DeviceOptions, Memory, ShaderLibrary};
-use crate::{Error, Result, buffers, gpu_interface};
+use crate::{Error, Result, buffers, gpu_interface, targets};
 use std::sync::Arc;
 
 /// Device, scene, targets and frames in flight of a replay.
@@ -30,7 +30,7 @@ pub struct Session {
     pub frame_slots: [FrameSlot; FRAME_SLOTS],
     /// What each view is rendered into.
     pub targets: Vec<ViewTargets>,
-    _depth_sets: DescriptorSets,
+    _target_sets: DescriptorSets,
     /// The scene on the device.
     pub scene: GpuScene,
     /// Surfaces of the scene, where some octree is kept where they are alone.
@@ -65,14 +65,14 @@ impl Session {
         let batches = Batches::new(scene);
         let drawables = Drawables::new(&batches);
         let gpu_scene = GpuScene::new(&context, &layouts, scene, (&batches, &drawables))?;
-        let depth_sets = DescriptorSets::new(&context, "depth", layouts.depth, &DEPTH_SET, views)?;
+        let target_sets = DescriptorSets::new(&context, "targets", layouts.targets, &TARGETS_SET, views)?;
         Ok(Self {
             frame_slots: [
                 FrameSlot::new(&context, views, drawables.counts)?,
                 FrameSlot::new(&context, views, drawables.counts)?,
             ],
-            targets: make_targets(&context, config, &depth_sets.sets)?,
-            _depth_sets: depth_sets,
+            targets: make_targets(&context, config, &target_sets.sets)?,
+            _target_sets: target_sets,
             scene: gpu_scene,
             surfaces: config.octree.contains(&OctreeWay::Geometry).then(|| SceneGeometry::of(scene)),
             batches,
@@ -99,7 +99,7 @@ fn draw_buffers(context: &Arc<Context>, views: usize, counts: DrawCounts) -> Res
 
 /// The shader sources that the config chooses.
 pub fn shader_library(config: &Config) -> Result<ShaderLibrary> {
-    let text = gpu_interface::glsl() + &buffers::glsl();
+    let text = gpu_interface::glsl() + &buffers::glsl() + &targets::glsl();
     ShaderLibrary::new(config.shaders.as_deref(), vec![("generated/gpu_interface.glsl".to_owned(), text)])
 }
 

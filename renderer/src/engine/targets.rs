@@ -2,38 +2,54 @@
 
 use crate::Result;
 use crate::config::Config;
+use crate::methods::Method;
 use crate::passes::{ColorTarget, ImageLayer, ViewTargets};
-use crate::targets::{DEPTH_FORMAT, TargetName};
+use crate::shading::ShadingPipeline;
+use crate::targets::{DEPTH_FORMAT, TARGET_COUNT, TargetName, filled};
 use crate::vk::{Context, Image, ImageDesc};
 use ash::vk;
 use std::sync::Arc;
 
-/// Targets for each view, whose depths `depth_sets` name: images of its own, or with multiview layers of shared ones.
+/// Targets for each view that some run of a configuration draws into, bound by a set of `sets` each: images of its own, or with
+/// multiview layers of shared ones.
 pub fn make_targets(
     context: &Arc<Context>,
     config: &Config,
-    depth_sets: &[vk::DescriptorSet],
+    sets: &[vk::DescriptorSet],
 ) -> Result<Vec<ViewTargets>> {
     let [width, height] = config.resolution;
     let images = |suffix, layers: usize| Images {
         context,
         suffix,
+        drawn: drawn(config),
         desc: ImageDesc { width, height, layers: layers as u32, ..ImageDesc::default() },
         samples: vk::SampleCountFlags::from_raw(config.msaa),
     };
     if config.multiview {
-        return images(String::new(), depth_sets.len()).targets(depth_sets);
+        return images(String::new(), sets.len()).targets(sets);
     }
-    let sets = depth_sets.chunks(1).enumerate();
-    let own = sets.map(|(view, set)| images(format!("[{view}]"), 1).targets(set));
+    let own = sets.chunks(1).enumerate().map(|(view, set)| images(format!("[{view}]"), 1).targets(set));
     Ok(own.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect())
 }
+
+/// The colour targets that the runs of a configuration draw into.
+fn drawn(config: &Config) -> &'static [TargetName] {
+    match config.pipeline.contains(&ShadingPipeline::Deferred) {
+        true => filled(config.methods.contains(&Method::Models)),
+        false => &[TargetName::Radiance],
+    }
+}
+
+/// What is drawn into, and what it is resolved to.
+type ColorImages = (Arc<Image>, Option<Arc<Image>>);
 
 /// Makes images that some views share, a layer each.
 struct Images<'a> {
     context: &'a Arc<Context>,
     /// What follows the names of images.
     suffix: String,
+    /// Colour targets that are made.
+    drawn: &'static [TargetName],
     /// Their size.
     desc: ImageDesc,
     /// Samples a pixel of what is drawn into.
@@ -41,20 +57,47 @@ struct Images<'a> {
 }
 
 impl Images<'_> {
-    fn targets(&self, depth_sets: &[vk::DescriptorSet]) -> Result<Vec<ViewTargets>> {
+    fn targets(&self, sets: &[vk::DescriptorSet]) -> Result<Vec<ViewTargets>> {
         let depth = self.depth()?;
-        let colors = TargetName::ALL.map(|name| self.color(name));
-        let colors = colors.into_iter().collect::<Result<Vec<_>>>()?;
-        let target = |(index, &depth_set): (usize, &vk::DescriptorSet)| {
-            let depth = ImageLayer::new(&depth, index);
-            write_depth_set(self.context, depth_set, depth.view);
-            let color = |(drawn, resolved): &(Arc<Image>, Option<Arc<Image>>)| ColorTarget {
+        let mut colors: [Option<ColorImages>; TARGET_COUNT] = Default::default();
+        for &name in self.drawn {
+            colors[name as usize] = Some(self.color(name)?);
+        }
+        let target = |(index, &set): (usize, &vk::DescriptorSet)| {
+            let color = |(drawn, resolved): &ColorImages| ColorTarget {
                 drawn: ImageLayer::new(drawn, index),
                 resolved: resolved.as_ref().map(|image| ImageLayer::new(image, index)),
             };
-            ViewTargets { depth, depth_set, colors: colors.iter().map(color).collect() }
+            let colors = colors.each_ref().map(|images| images.as_ref().map(color));
+            let targets = ViewTargets { depth: ImageLayer::new(&depth, index), set, colors };
+            self.write_set(&targets);
+            targets
         };
-        Ok(depth_sets.iter().enumerate().map(target).collect())
+        Ok(sets.iter().enumerate().map(target).collect())
+    }
+
+    /// Binds what shaders sample of a view's targets. What is not made is not bound, and no shader of the session asks for it.
+    fn write_set(&self, targets: &ViewTargets) {
+        self.write_image(targets.set, 0, (targets.depth.view, vk::ImageLayout::DEPTH_READ_ONLY_OPTIMAL));
+        for &name in self.drawn.iter().filter(|name| name.is_sampled()) {
+            let image = (targets[name].drawn.view, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
+            self.write_image(targets.set, name.binding(), image);
+        }
+    }
+
+    fn write_image(
+        &self,
+        set: vk::DescriptorSet,
+        binding: u32,
+        (view, layout): (vk::ImageView, vk::ImageLayout),
+    ) {
+        let info = [vk::DescriptorImageInfo::default().image_view(view).image_layout(layout)];
+        let write = vk::WriteDescriptorSet::default()
+            .dst_set(set)
+            .dst_binding(binding)
+            .descriptor_type(vk::DescriptorType::SAMPLED_IMAGE)
+            .image_info(&info);
+        unsafe { self.context.device.update_descriptor_sets(&[write], &[]) };
     }
 
     fn depth(&self) -> Result<Arc<Image>> {
@@ -64,7 +107,7 @@ impl Images<'_> {
     }
 
     /// What is drawn into, and with MSAA what it is resolved to.
-    fn color(&self, name: TargetName) -> Result<(Arc<Image>, Option<Arc<Image>>)> {
+    fn color(&self, name: TargetName) -> Result<ColorImages> {
         use vk::ImageUsageFlags as U;
         let info = name.info();
         let resolves = info.resolved && self.samples != vk::SampleCountFlags::TYPE_1;
@@ -83,15 +126,4 @@ impl Images<'_> {
     fn image(&self, name: &str, desc: ImageDesc) -> Result<Arc<Image>> {
         Image::new(self.context, &format!("{name}{}", self.suffix), desc).map(Arc::new)
     }
-}
-
-fn write_depth_set(context: &Context, set: vk::DescriptorSet, view: vk::ImageView) {
-    let info = [vk::DescriptorImageInfo::default()
-        .image_view(view)
-        .image_layout(vk::ImageLayout::DEPTH_READ_ONLY_OPTIMAL)];
-    let write = vk::WriteDescriptorSet::default()
-        .dst_set(set)
-        .descriptor_type(vk::DescriptorType::SAMPLED_IMAGE)
-        .image_info(&info);
-    unsafe { context.device.update_descriptor_sets(&[write], &[]) };
 }

@@ -44,7 +44,7 @@ impl PipelineLayout {
             .collect();
         let buffers = set_layout(context, &bindings, name)?;
         let mut this = Self { context: context.clone(), handle: vk::PipelineLayout::null(), buffers, uses };
-        let sets = [buffers, layouts.material, layouts.depth];
+        let sets = [buffers, layouts.material, layouts.targets];
         let push = [vk::PushConstantRange::default().stage_flags(vk::ShaderStageFlags::ALL).size(PUSH_BYTES)];
         let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets).push_constant_ranges(&push);
         this.handle = unsafe { context.device.create_pipeline_layout(&info, None) }

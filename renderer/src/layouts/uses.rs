@@ -1,7 +1,7 @@
 //! What shaders statically use, read off their SPIR-V.
 
 use crate::buffers::{BufferName, BufferSet, BufferView};
-use crate::gpu_interface::{SET_BUFFERS, SET_DEPTH, SET_MATERIAL};
+use crate::gpu_interface::{SET_BUFFERS, SET_MATERIAL, SET_TARGETS};
 use crate::{Error, Result};
 use ash::vk;
 use spirq::parse::{Instr, SpirvBinary};
@@ -19,8 +19,8 @@ pub struct Uses {
     pub written: BufferSet,
     /// Whether anything of a material is.
     pub material: bool,
-    /// Whether a view's depth image is.
-    pub depth: bool,
+    /// Whether any image of a view's targets is.
+    pub targets: bool,
 }
 
 impl Uses {
@@ -53,7 +53,7 @@ impl Uses {
                 }
             }
             (Some(SET_MATERIAL), _) => self.material = true,
-            (Some(SET_DEPTH), _) => self.depth = true,
+            (Some(SET_TARGETS), _) => self.targets = true,
             (Some(set), _) => return Err(format!("reads descriptor set {set}, which nobody binds")),
             // Inputs, outputs, shared memory and push constants.
             (None, _) => {}
@@ -200,7 +200,7 @@ mod tests {
         assert_eq!(found.views.len(), 8);
         assert!(found.views.contains_key(&(B::State, BufferView::Uniform)));
         assert!(!found.views.contains_key(&(B::LightIndices, BufferView::Storage)));
-        assert!(!found.material && !found.depth);
+        assert!(!found.material && !found.targets);
     }
 
     #[test]

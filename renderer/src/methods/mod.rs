@@ -151,12 +151,18 @@ impl Method {
         }
     }
 
-    /// Records what shading needs to find lights; the depth that comes back is what that took.
-    pub fn record(&self, r: &mut Recorder, frame: &Frame, lights: Lights) -> (Depth, LightLists) {
+    /// Records what shading needs to find lights, from the lights and what depth there is; the depth that comes back is with
+    /// what that took.
+    pub fn record(
+        &self,
+        r: &mut Recorder,
+        frame: &Frame,
+        (lights, depth): (Lights, Depth),
+    ) -> (Depth, LightLists) {
         match self {
-            Self::AllLights => all_lights::record(),
-            Self::Hashed(_) => hashed::record(r, frame),
-            Self::Grid(_) | Self::World(_) | Self::Models => grid::record(r, frame, lights),
+            Self::AllLights => all_lights::record(depth),
+            Self::Hashed(_) => hashed::record(r, frame, depth),
+            Self::Grid(_) | Self::World(_) | Self::Models => grid::record(r, frame, (lights, depth)),
         }
     }
 }

@@ -179,7 +179,7 @@ frame_row! {
         /// Writing of the light lists, over clusterings.
         gpu_ms_assign_lights = &stages::ASSIGNING;
         /// Shading, over views.
-        gpu_ms_shade = &["frame/shade"];
+        gpu_ms_shade = &["frame/gbuffer", "frame/light", "frame/shade"];
     }
 }
 

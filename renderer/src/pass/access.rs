@@ -9,12 +9,16 @@ pub enum Use {
     ComputeRead,
     /// Storage buffer written (and perhaps read) by a compute shader.
     ComputeWrite,
-    /// Image sampled by a compute shader.
+    /// Depth image sampled by a compute shader.
     ComputeSample,
     /// Buffer read by a vertex shader.
     VertexRead,
     /// Buffer read by a fragment shader.
     FragmentRead,
+    /// Colour image sampled by a fragment shader.
+    FragmentSample,
+    /// Depth image sampled by a fragment shader, which may be tested as well.
+    FragmentSampleDepth,
     /// Storage buffer written (and perhaps read) by a fragment shader.
     FragmentWrite,
     /// Dispatch sizes or draw commands read by the device.
@@ -46,7 +50,9 @@ impl Use {
         match self {
             Self::ComputeRead | Self::ComputeWrite | Self::ComputeSample => S::COMPUTE_SHADER,
             Self::VertexRead => S::VERTEX_SHADER,
-            Self::FragmentRead | Self::FragmentWrite => S::FRAGMENT_SHADER,
+            Self::FragmentRead | Self::FragmentWrite | Self::FragmentSample | Self::FragmentSampleDepth => {
+                S::FRAGMENT_SHADER
+            }
             Self::Indirect => S::DRAW_INDIRECT,
             Self::TransferRead | Self::TransferWrite => S::ALL_TRANSFER,
             Self::Color => S::COLOR_ATTACHMENT_OUTPUT,
@@ -60,7 +66,7 @@ impl Use {
         match self {
             Self::ComputeRead | Self::VertexRead | Self::FragmentRead => READ,
             Self::ComputeWrite | Self::FragmentWrite => READ | A::SHADER_STORAGE_WRITE,
-            Self::ComputeSample => A::SHADER_SAMPLED_READ,
+            Self::ComputeSample | Self::FragmentSample | Self::FragmentSampleDepth => A::SHADER_SAMPLED_READ,
             Self::Indirect => A::INDIRECT_COMMAND_READ,
             Self::TransferRead => A::TRANSFER_READ,
             Self::TransferWrite => A::TRANSFER_WRITE,
@@ -83,7 +89,10 @@ impl Use {
         match self {
             Self::Color => vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
             Self::Depth => vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL,
-            Self::DepthTest | Self::ComputeSample => vk::ImageLayout::DEPTH_READ_ONLY_OPTIMAL,
+            Self::DepthTest | Self::ComputeSample | Self::FragmentSampleDepth => {
+                vk::ImageLayout::DEPTH_READ_ONLY_OPTIMAL
+            }
+            Self::FragmentSample => vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
             Self::TransferRead => vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
             Self::TransferWrite => vk::ImageLayout::TRANSFER_DST_OPTIMAL,
             _ => vk::ImageLayout::UNDEFINED,

@@ -2,7 +2,7 @@
 
 use super::{Access, Declared, Recorder, Use};
 use crate::buffers::{BufferName, BufferSet};
-use crate::gpu_interface::{DispatchSize, Push, SET_BUFFERS, SET_DEPTH};
+use crate::gpu_interface::{DispatchSize, Push, SET_BUFFERS, SET_TARGETS};
 use crate::layouts::{BoundBuffers, Pipeline};
 use ash::vk;
 
@@ -44,7 +44,7 @@ impl Push {
 pub struct DepthImage {
     /// The image with all its layers.
     pub image: vk::Image,
-    /// Descriptor set that binds one layer of the image.
+    /// Descriptor set that binds one layer of the image, among the targets of its view.
     pub set: vk::DescriptorSet,
 }
 
@@ -96,7 +96,7 @@ impl Recorder<'_> {
         self.context.begin_label(self.commands(), &pass.pipeline.label);
         self.bind(vk::PipelineBindPoint::COMPUTE, pass.pipeline, &pass.buffers, pass.push);
         if let Some(depth) = pass.depth {
-            self.bind_set(vk::PipelineBindPoint::COMPUTE, pass.pipeline, SET_DEPTH, depth.set);
+            self.bind_set(vk::PipelineBindPoint::COMPUTE, pass.pipeline, SET_TARGETS, depth.set);
         }
         let (device, commands) = (&self.context.device, self.commands());
         match pass.size {

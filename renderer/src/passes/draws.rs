@@ -3,7 +3,7 @@
 use super::inputs::{Draws, Eyes, Frame, ImageLayer};
 use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::draw_list::{DrawRun, SurfaceKind};
-use crate::gpu_interface::{DrawCommand, SET_MATERIAL};
+use crate::gpu_interface::{DrawCommand, SET_MATERIAL, SET_TARGETS};
 use crate::layouts::{BoundBuffers, Pipeline};
 use crate::pass::{Access, Declared, Push, Recorder, Use};
 use crate::targets::{TARGET_COUNT, TargetName};
@@ -31,6 +31,8 @@ pub enum ColorUse {
     Clear([f32; 4]),
     /// What is there is kept and drawn over.
     Keep,
+    /// What is there is of no use: nothing is read but what is drawn.
+    Fresh,
 }
 
 /// What draws surfaces of a kind.
@@ -159,6 +161,50 @@ pub fn overlays(r: &mut Recorder, frame: &Frame, view: usize, overlays: &[Overla
     unsafe { r.context.device.cmd_end_rendering(r.commands()) };
 }
 
+/// A pass over all pixels of a view that show a surface.
+#[derive(Clone, Copy)]
+pub struct ScreenPass<'a> {
+    /// Pipeline that draws, which tests depth.
+    pub pipeline: &'a Pipeline,
+    /// What becomes of the radiance that is drawn over.
+    pub radiance: ColorUse,
+    /// Which of several things the shader draws; 0 where there is one.
+    pub step: u32,
+    /// Colour targets of the view that are sampled, beside its depth.
+    pub sampled: &'a [TargetName],
+    /// Buffers that are read alone.
+    pub reads: BufferSet,
+    /// Buffers that are written, and perhaps read.
+    pub writes: BufferSet,
+}
+
+/// Draws over a view's radiance, by what other targets of it hold.
+pub fn screen(r: &mut Recorder, frame: &Frame, view: usize, pass: &ScreenPass) {
+    let colors = &[(TargetName::Radiance, pass.radiance)];
+    let attached = Attached { eyes: Eyes::One(view), colors, depth: DepthUse::Test };
+    attached.check(r, [pass.pipeline]);
+    let (targets, buffers) = (&frame.targets[view], frame.buffers_of_view(view));
+    let sampled = |&name: &TargetName| {
+        let image = targets[name].drawn.image.handle;
+        Access::image(image, vk::ImageAspectFlags::COLOR, Use::FragmentSample)
+    };
+    let depth =
+        Access::image(targets.depth.image.handle, vk::ImageAspectFlags::DEPTH, Use::FragmentSampleDepth);
+    // Depth is sampled and tested: of an image's two uses the second waits for the first, whose barrier is another.
+    r.access(pass.sampled.iter().map(sampled).chain([depth]));
+    let declared = Declared { reads: pass.reads, writes: pass.writes };
+    r.prepare([pass.pipeline], &buffers, declared, attached.accesses(frame).map(Some));
+    begin_rendering(r, frame, &attached);
+    let push = Push { step: pass.step, ..Push::view(view) };
+    r.bind(vk::PipelineBindPoint::GRAPHICS, pass.pipeline, &buffers, push);
+    r.bind_set(vk::PipelineBindPoint::GRAPHICS, pass.pipeline, SET_TARGETS, targets.set);
+    let (device, commands) = (&r.context.device, r.commands());
+    unsafe {
+        device.cmd_draw(commands, 3, 1, 0, 0);
+        device.cmd_end_rendering(commands);
+    }
+}
+
 /// What a pass draws into.
 struct Attached<'a> {
     eyes: Eyes,
@@ -216,6 +262,7 @@ impl Attached<'_> {
         let (load, float32) = match usage {
             ColorUse::Clear(color) => (vk::AttachmentLoadOp::CLEAR, color),
             ColorUse::Keep => (vk::AttachmentLoadOp::LOAD, [0.0; 4]),
+            ColorUse::Fresh => (vk::AttachmentLoadOp::DONT_CARE, [0.0; 4]),
         };
         self.attachment(&frame.targets[self.eyes.first()][name].drawn)
             .image_layout(vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL)

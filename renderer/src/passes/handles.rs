@@ -45,6 +45,35 @@ impl BitOr for Depth {
     }
 }
 
+/// The G-buffers of some views, with their depth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct GBuffer {
+    depth: Depth,
+}
+
+impl GBuffer {
+    /// G-buffers of no view.
+    pub const NONE: Self = Self { depth: Depth::NONE };
+
+    /// G-buffers of the views that a pass drew.
+    pub(super) fn of(frame: &Frame, eyes: Eyes) -> Self {
+        Self { depth: Depth::of(frame, eyes) }
+    }
+
+    /// The depth of their views.
+    pub fn depth(self) -> Depth {
+        self.depth
+    }
+}
+
+impl BitOr for GBuffer {
+    type Output = Self;
+
+    fn bitor(self, other: Self) -> Self {
+        Self { depth: self.depth | other.depth }
+    }
+}
+
 /// The visible clusters of one clustering: counted, and listed, by ascending index unless a counter gave them their places.
 #[derive(Debug, Clone, Copy)]
 pub struct VisibleClusters {

@@ -11,8 +11,8 @@ use crate::gpu_scene::GpuScene;
 use crate::layouts::BoundBuffers;
 use crate::pass::{DepthImage, ScopeName};
 use crate::pipelines::Pipelines;
-use crate::shading::Shading;
-use crate::targets::TargetName;
+use crate::shading::{Shading, ShadingPipeline};
+use crate::targets::{TARGET_COUNT, TargetName};
 use crate::vk::{Buffer, Image};
 use ash::vk;
 use std::ops::{Index, Range};
@@ -87,16 +87,21 @@ impl ColorTarget {
 pub struct ViewTargets {
     /// Reversed depth of the view.
     pub depth: ImageLayer,
-    /// Descriptor set that binds `depth` for compute shaders.
-    pub depth_set: vk::DescriptorSet,
-    /// Colour targets in the order of [`TargetName::ALL`].
-    pub colors: Vec<ColorTarget>,
+    /// Descriptor set that binds `depth`, and those colour targets that shaders sample.
+    pub set: vk::DescriptorSet,
+    /// Colour targets in the order of [`TargetName::ALL`]; `None` for those that no run of the session draws into.
+    pub colors: [Option<ColorTarget>; TARGET_COUNT],
 }
 
 impl ViewTargets {
     /// Depth of the view, as compute shaders sample it.
     pub fn depth_image(&self) -> DepthImage {
-        DepthImage { image: self.depth.image.handle, set: self.depth_set }
+        DepthImage { image: self.depth.image.handle, set: self.set }
+    }
+
+    /// All colour targets that there are.
+    pub fn made(&self) -> impl Iterator<Item = &ColorTarget> {
+        self.colors.iter().flatten()
     }
 }
 
@@ -104,7 +109,7 @@ impl Index<TargetName> for ViewTargets {
     type Output = ColorTarget;
 
     fn index(&self, name: TargetName) -> &ColorTarget {
-        &self.colors[name as usize]
+        self.colors[name as usize].as_ref().expect("a session makes the targets of all its runs")
     }
 }
 
@@ -161,8 +166,10 @@ pub struct Frame<'a> {
     pub marking: Marking,
     /// How the light lists are built.
     pub assigner: Assigner,
-    /// How surfaces are shaded.
+    /// How surfaces are drawn.
     pub shading: Shading,
+    /// Who evaluates lights for opaque and masked ones.
+    pub pipeline: ShadingPipeline,
     /// Whether views are shaded; else the frame ends with the light lists.
     pub shaded: bool,
     /// The lights on the device.

@@ -1,5 +1,5 @@
 //! The passes of a frame, one file a pass (or family of passes that share a shader), in the order of
-//! [`crate::frame`]; `clay`, `pixel_clusters`, `lines` and `spheres` belong to stills alone. What they record from is
+//! [`crate::frame`]; `clay`, `gbuffer_picture`, `pixel_clusters`, `lines` and `spheres` belong to stills alone. What they record from is
 //! [`Frame`]; what they hand on are handles, such as [`Depth`] and [`LightLists`].
 
 pub mod assign;
@@ -11,9 +11,12 @@ pub mod cull_lights;
 pub mod depth;
 pub mod depth_steps;
 pub mod draws;
+pub mod gbuffer;
+pub mod gbuffer_picture;
 mod handles;
 pub mod hierarchy;
 mod inputs;
+pub mod light;
 pub mod lights;
 pub mod limit;
 pub mod lines;
@@ -32,5 +35,5 @@ pub mod shade;
 pub mod spheres;
 pub mod take_places;
 
-pub use handles::{Color, Depth, LightLists, Lights, VisibleClusters};
+pub use handles::{Color, Depth, GBuffer, LightLists, Lights, VisibleClusters};
 pub use inputs::{ColorTarget, DrawBuffers, Draws, Eyes, Frame, ImageLayer, ViewTargets};

@@ -1,13 +1,12 @@
 //! Stage `resolve`: the samples of every pixel averaged, with MSAA alone.
 
 use super::handles::Color;
-use super::inputs::{ColorTarget, Frame};
+use super::inputs::{ColorTarget, Frame, ViewTargets};
 use crate::pass::Recorder;
-use crate::targets::TargetName;
 
 /// Resolves every view's targets.
 pub fn record(r: &mut Recorder, frame: &Frame, _color: Color) {
-    let targets = || frame.targets.iter().flat_map(|view| TargetName::ALL.map(|name| &view[name]));
+    let targets = || frame.targets.iter().flat_map(ViewTargets::made);
     if targets().all(|target| target.resolved.is_none()) {
         return;
     }

@@ -1,6 +1,6 @@
 //! Stages `shade[v] > opaque, masked, transparent`: forward shading through the method's lookup. With multiview `shade`
 //! draws opaque and masked surfaces of all views at once, where they look lights up in one clustering; transparent ones are
-//! blended view by view, each in its own order.
+//! blended view by view, each in its own order. Deferred shading leaves transparent ones alone to it.
 //!
 //! ```text
 //! prepass   Depth ──(equal)──> opaque, masked ──(nearer)──> transparent ──> Color
@@ -25,10 +25,10 @@ use crate::targets::TargetName;
 pub const BACKGROUND: [f32; 3] = [0.004, 0.006, 0.012];
 
 /// Before anything is drawn: the background, which covers nothing.
-const CLEARED: [f32; 4] = [BACKGROUND[0], BACKGROUND[1], BACKGROUND[2], 0.0];
+pub(super) const CLEARED: [f32; 4] = [BACKGROUND[0], BACKGROUND[1], BACKGROUND[2], 0.0];
 
 /// What shading counts.
-const COUNTED: BufferSet = set(&[B::Counters, B::LightsPerFragment]);
+pub(super) const COUNTED: BufferSet = set(&[B::Counters, B::LightsPerFragment]);
 
 /// Shades all views, for which `lists` serve: what is seen of them where `depth` is laid down; else everything as it is drawn,
 /// whatever hides it later, which lays depth down.
@@ -41,6 +41,15 @@ pub fn record(r: &mut Recorder, frame: &Frame, depth: Option<Depth>, lists: Ligh
     Color::shaded()
 }
 
+/// Shades what is transparent of all views, for which `lists` serve, over what is lit of the others by other passes.
+pub fn transparent(r: &mut Recorder, frame: &Frame, lit: Color, lists: LightLists) -> Color {
+    for view in 0..frame.targets.len() {
+        debug_assert!(lists.serve(frame, view));
+        r.scope(("shade", view), |r| blend(r, frame, Eyes::One(view)));
+    }
+    lit
+}
+
 fn shade(r: &mut Recorder, frame: &Frame, eyes: Eyes) {
     r.scope(eyes.stage("shade"), |r| {
         r.scope("opaque", |r| surfaces(r, frame, eyes, SurfaceKind::Opaque));
@@ -48,15 +57,20 @@ fn shade(r: &mut Recorder, frame: &Frame, eyes: Eyes) {
             count_masked(r, frame, eyes);
             surfaces(r, frame, eyes, SurfaceKind::Masked);
         });
-        r.scope("transparent", |r| {
-            let views = match eyes {
-                Eyes::One(view) => view..view + 1,
-                Eyes::All => 0..frame.targets.len(),
-            };
-            for view in views {
-                surfaces(r, frame, Eyes::One(view), SurfaceKind::Transparent);
-            }
-        });
+        blend(r, frame, eyes);
+    });
+}
+
+/// Blends transparent surfaces over the picture.
+fn blend(r: &mut Recorder, frame: &Frame, eyes: Eyes) {
+    r.scope("transparent", |r| {
+        let views = match eyes {
+            Eyes::One(view) => view..view + 1,
+            Eyes::All => 0..frame.targets.len(),
+        };
+        for view in views {
+            surfaces(r, frame, Eyes::One(view), SurfaceKind::Transparent);
+        }
     });
 }
 

@@ -5,10 +5,10 @@ use crate::Result;
 use crate::draw_list::SurfaceKind;
 use crate::layouts::Pipeline;
 use crate::methods::Groups;
-use crate::shading::Shading;
+use crate::shading::{Shading, ShadingPipeline};
 use crate::targets::TargetName;
 use crate::texture_sets::TextureSet;
-use crate::vk::GraphicsDesc;
+use crate::vk::{Blend, GraphicsDesc};
 use ash::vk;
 use std::mem::offset_of;
 use std::sync::Arc;
@@ -42,6 +42,8 @@ pub struct DebugPipelines {
     pub lines: [Arc<Pipeline>; 2],
     /// Draws the influence volumes of lights.
     pub spheres: Arc<Pipeline>,
+    /// Shows what a G-buffer holds, where shading is deferred.
+    pub gbuffer_picture: Option<Arc<Pipeline>>,
     /// All pipelines, each once.
     pub all: Vec<Arc<Pipeline>>,
 }
@@ -49,7 +51,9 @@ pub struct DebugPipelines {
 impl PipelineStore {
     /// The pipelines of stills of a variant, which counts. They draw over a prepass of their own.
     pub fn debug(&mut self, variant: &Variant) -> Result<DebugPipelines> {
-        let variant = &Variant { shading: Shading::Prepass, ..*variant };
+        let deferred = variant.pipeline == ShadingPipeline::Deferred;
+        let (shading, pipeline) = (Shading::Prepass, ShadingPipeline::Forward);
+        let variant = &Variant { shading, pipeline, ..*variant };
         let defines = variant.defines();
         let clay = "debug/clay.frag";
         let clusters = "debug/pixel_clusters.comp";
@@ -76,6 +80,7 @@ impl PipelineStore {
             },
             lines: [self.lines(variant, true)?, self.lines(variant, false)?],
             spheres: self.spheres(variant)?,
+            gbuffer_picture: deferred.then(|| self.gbuffer_picture(variant)).transpose()?,
             all: vec![],
         };
         pipelines.all = self.take_asked();
@@ -135,7 +140,7 @@ impl PipelineStore {
 fn overlay(variant: &Variant) -> GraphicsDesc<'static> {
     GraphicsDesc {
         depth_compare: Some(vk::CompareOp::GREATER_OR_EQUAL),
-        blend: true,
+        blend: Blend::Over,
         samples: vk::SampleCountFlags::from_raw(variant.samples),
         ..Default::default()
     }

@@ -6,9 +6,9 @@ use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
 use crate::layouts::{Pipeline, PipelineLayout};
 use crate::scene::{TextureSlot, Vertex};
-use crate::targets::{DEPTH_FORMAT, TargetName};
+use crate::targets::{DEPTH_FORMAT, TargetName, filled};
 use crate::texture_sets::TextureSet;
-use crate::vk::{self as gpu, GraphicsDesc};
+use crate::vk::{self as gpu, Blend, GraphicsDesc};
 use ash::vk;
 use std::mem::offset_of;
 use std::sync::Arc;
@@ -22,16 +22,27 @@ pub(super) enum Output {
     Visits(SurfaceKind, Visit),
     /// Tests depth; writes radiance, of which these textures are a part.
     Shades(SurfaceKind, TextureSet),
+    /// Tests depth; fills the G-buffer, of which these textures are a part.
+    Fills(SurfaceKind, TextureSet),
     /// Tests depth; counts what is seen in the end.
     Sees(SurfaceKind),
 }
 
 impl Output {
-    /// The colour targets it draws into.
-    fn targets(self) -> &'static [TargetName] {
+    /// The colour targets it draws into, for groups that are models or others.
+    fn targets(self, models: bool) -> &'static [TargetName] {
         match self {
             Self::Depth | Self::Visits(..) | Self::Sees(_) => &[],
             Self::Shades(..) => &[TargetName::Radiance],
+            Self::Fills(..) => filled(models),
+        }
+    }
+
+    /// What becomes of what is there in them.
+    fn blend(self) -> Blend {
+        match self {
+            Self::Shades(SurfaceKind::Transparent, _) => Blend::Over,
+            _ => Blend::Replace,
         }
     }
 }
@@ -87,12 +98,13 @@ impl PipelineStore {
                 dynamic_facing: true,
                 depth_write: variant.writes_depth(output),
                 depth_compare: Some(depth_compare(variant, output)),
-                blend: matches!(output, Output::Shades(SurfaceKind::Transparent, _)),
+                blend: output.blend(),
                 samples: vk::SampleCountFlags::from_raw(variant.samples),
                 sample_shading: variant.per_sample() && output != Output::Depth,
                 ..Default::default()
             };
-            store.rasterizing(desc, output.targets(), (fragment.unwrap_or("geometry/surface.vert"), number))
+            let targets = output.targets(variant.has_models());
+            store.rasterizing(desc, targets, (fragment.unwrap_or("geometry/surface.vert"), number))
         })
     }
 }
@@ -102,8 +114,12 @@ fn graphics_defines(variant: &Variant, textured: bool, output: Output) -> Define
         Culling::Cpu => "CULLING_CPU",
         Culling::Gpu => "CULLING_GPU",
     };
-    let defines = variant
-        .defines()
+    let defines = match output {
+        // It is the same for all methods but those of models.
+        Output::Fills(..) => variant.surface_defines(),
+        _ => variant.defines(),
+    };
+    let defines = defines
         .with("CULLING", culling)
         .with("VARYINGS", varyings(textured, output))
         .with("TEXTURES", textures(textured, output).bits())
@@ -112,6 +128,9 @@ fn graphics_defines(variant: &Variant, textured: bool, output: Output) -> Define
         Output::Depth => defines,
         Output::Visits(_, visit) => defines.with("VISIT", visit.define()),
         Output::Sees(kind) => defines.with("ALPHA_TEST", u32::from(kind == SurfaceKind::Masked)),
+        Output::Fills(kind, _) => defines
+            .with("OVERDRAW", u32::from(variant.overdraws(output)))
+            .with("ALPHA_TEST", u32::from(variant.overdraws(output) && kind == SurfaceKind::Masked)),
         Output::Shades(kind, _) => defines
             .with("OVERDRAW", u32::from(variant.overdraws(output)))
             .with("ALPHA_TEST", u32::from(variant.overdraws(output) && kind == SurfaceKind::Masked))
@@ -126,7 +145,7 @@ fn varyings(textured: bool, output: Output) -> u32 {
         Output::Depth => u32::from(textured),
         Output::Visits(..) => 0,
         Output::Sees(kind) => u32::from(kind == SurfaceKind::Masked),
-        Output::Shades(..) => 2,
+        Output::Shades(..) | Output::Fills(..) => 2,
     }
 }
 
@@ -136,7 +155,7 @@ fn textures(textured: bool, output: Output) -> TextureSet {
         Output::Depth if textured => TextureSet::BASE_COLOR,
         Output::Sees(SurfaceKind::Masked) => TextureSet::BASE_COLOR,
         Output::Depth | Output::Visits(..) | Output::Sees(_) => TextureSet::NONE,
-        Output::Shades(_, set) => set,
+        Output::Shades(_, set) | Output::Fills(_, set) => set,
     }
 }
 
@@ -145,11 +164,13 @@ fn textures(textured: bool, output: Output) -> TextureSet {
 fn depth_compare(variant: &Variant, output: Output) -> vk::CompareOp {
     match output {
         Output::Depth => vk::CompareOp::GREATER,
-        Output::Shades(..) if variant.overdraws(output) => vk::CompareOp::GREATER_OR_EQUAL,
-        Output::Visits(kind, _) | Output::Shades(kind, _) | Output::Sees(kind) => match kind {
-            SurfaceKind::Transparent => vk::CompareOp::GREATER_OR_EQUAL,
-            SurfaceKind::Opaque | SurfaceKind::Masked => vk::CompareOp::EQUAL,
-        },
+        _ if variant.overdraws(output) => vk::CompareOp::GREATER_OR_EQUAL,
+        Output::Visits(kind, _) | Output::Shades(kind, _) | Output::Fills(kind, _) | Output::Sees(kind) => {
+            match kind {
+                SurfaceKind::Transparent => vk::CompareOp::GREATER_OR_EQUAL,
+                SurfaceKind::Opaque | SurfaceKind::Masked => vk::CompareOp::EQUAL,
+            }
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use crate::geometry::{CellShape, Separators, Sharing, SliceLaw, SphereTest};
 use crate::lights::Attenuation;
 use crate::material::MaterialModel;
 use crate::methods::Groups;
-use crate::shading::Shading;
+use crate::shading::{Shading, ShadingPipeline};
 use crate::texture_sets::TextureSet;
 
 /// What a run's shaders are specialised for.
@@ -46,8 +46,10 @@ pub struct Variant {
     pub test: SphereTest,
     /// Lights that shading evaluates in one turn of its loop.
     pub lights_at_once: u32,
-    /// How surfaces are shaded.
+    /// How surfaces are drawn.
     pub shading: Shading,
+    /// Who evaluates lights for opaque and masked ones.
+    pub pipeline: ShadingPipeline,
     /// How lights fade.
     pub attenuation: Attenuation,
     /// What surfaces are made of.
@@ -90,16 +92,22 @@ impl Variant {
         let one_clustering = self.sharing == Sharing::Encl;
         self.multiview
             && match output {
-                Output::Depth => true,
+                Output::Depth | Output::Fills(..) => true,
                 Output::Shades(kind, _) => one_clustering && kind != SurfaceKind::Transparent,
                 Output::Visits(..) | Output::Sees(_) => false,
             }
     }
 
-    /// Whether a pipeline shades what may be hidden in the end.
+    /// Whether a pipeline shades, or keeps, what may be hidden in the end.
     pub(super) fn overdraws(&self, output: Output) -> bool {
+        use SurfaceKind::{Masked, Opaque};
         self.shading == Shading::Overdraw
-            && matches!(output, Output::Shades(SurfaceKind::Opaque | SurfaceKind::Masked, _))
+            && matches!(output, Output::Shades(Opaque | Masked, _) | Output::Fills(..))
+    }
+
+    /// Whether shading counts fragments that may be hidden in the end.
+    pub(super) fn counts_hidden(&self) -> bool {
+        (self.shading, self.pipeline) == (Shading::Overdraw, ShadingPipeline::Forward) && self.counting
     }
 
     /// Whether a pipeline writes depth. What is cut out must leave none, for which shading gives up the early tests that
@@ -117,6 +125,11 @@ impl Variant {
             SurfaceKind::Transparent => true,
         };
         self.material.sampled(textures, reads_alpha)
+    }
+
+    /// Whether fragments of a kind of surface are shaded.
+    pub(super) fn shades(&self, kind: SurfaceKind) -> bool {
+        self.pipeline == ShadingPipeline::Forward || kind == SurfaceKind::Transparent
     }
 
     /// What draws surfaces of a kind into the picture: with overdraw masked ones are counted by other pipelines.
@@ -150,11 +163,7 @@ impl Variant {
             ListStore::Fixed(_) => "LISTS_FIXED",
             ListStore::Capped(_) => "LISTS_CAPPED",
         };
-        let material = match self.material {
-            MaterialModel::Textured => "MATERIAL_TEXTURED",
-            MaterialModel::White => "MATERIAL_WHITE",
-        };
-        Defines(vec![])
+        self.surface_defines()
             .with("LOOKUP", self.lookup)
             .with("SPACE", space)
             .with("CLUSTERS", clusters)
@@ -162,11 +171,20 @@ impl Variant {
             .with("COMPACTION", compaction)
             .with("LISTS", lists)
             .with("SLICES", self.slices_define())
+            .with("LEAVES", u32::from(self.groups == Groups::Leaves))
+            .with("COUNTERS", u32::from(self.counting))
+    }
+
+    /// The defines of what draws surfaces, or samples what was drawn, whatever the method.
+    pub(super) fn surface_defines(&self) -> Defines {
+        let material = match self.material {
+            MaterialModel::Textured => "MATERIAL_TEXTURED",
+            MaterialModel::White => "MATERIAL_WHITE",
+        };
+        Defines(vec![])
             .with("SAMPLES", self.samples)
             .with("PER_SAMPLE", u32::from(self.per_sample()))
             .with("MATERIAL", material)
-            .with("LEAVES", u32::from(self.groups == Groups::Leaves))
-            .with("COUNTERS", u32::from(self.counting))
     }
 
     /// The two geometric laws differ in numbers alone.

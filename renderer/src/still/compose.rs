@@ -30,6 +30,8 @@ pub struct Layers {
     pub clusterings: Vec<Vec<PixelData>>,
     /// Distance along the camera's -Z, metres; infinity where nothing was hit.
     pub distance: Vec<f32>,
+    /// Base colours and normals of the G-buffer, as colours, where they are shown.
+    pub gbuffer: Option<[Vec<[f16; 4]>; 2]>,
 }
 
 /// A pixel below the overlay, linear.
@@ -59,7 +61,7 @@ pub fn compose(show: &Show, layers: &Layers, grids: &[Grid], view: ViewPixels) -
         let over = |below: [f32; 3]| -> [f32; 3] {
             std::array::from_fn(|i| below[i] * (1.0 - coverage.min(1.0)) + [r, g, b][i])
         };
-        *target = Rgb(over(shown).map(|c| (srgb_encode(c.clamp(0.0, 1.0)) * 255.0).round() as u8));
+        *target = pixel(over(shown));
         let [r, g, b] = over(linear).map(f16::from_f32);
         let below = covered(show, layers, position) * (1.0 - coverage.min(1.0));
         color.push([r, g, b, f16::from_f32(below + coverage.min(1.0))]);
@@ -73,18 +75,42 @@ pub fn compose(show: &Show, layers: &Layers, grids: &[Grid], view: ViewPixels) -
         cluster_index: known.iter().map(|pixel| pixel.cluster_index).collect(),
         ..view
     };
+    let image = layers.gbuffer.as_ref().map_or(image, |parts| side_by_side(parts, layers, &pixels));
     (image, pixels)
+}
+
+/// A linear colour as a display takes it.
+fn pixel(color: [f32; 3]) -> Rgb<u8> {
+    Rgb(color.map(|c| (srgb_encode(c.clamp(0.0, 1.0)) * 255.0).round() as u8))
+}
+
+/// What a G-buffer holds of a view: base colours, normals, and depth, by which what is nearest is white (Tegelaers figure 4.3).
+fn side_by_side([base, normals]: &[Vec<[f16; 4]>; 2], layers: &Layers, view: &ViewPixels) -> RgbImage {
+    let nearest = layers.distance.iter().copied().fold(f32::INFINITY, f32::min);
+    let linear = |texel: [f16; 4]| [texel[0], texel[1], texel[2]].map(f16::to_f32);
+    RgbImage::from_fn(3 * view.width, view.height, |x, y| {
+        let at = (y * view.width + x % view.width) as usize;
+        match x / view.width {
+            0 => pixel(linear(base[at])),
+            // Numbers, not light.
+            1 => Rgb(linear(normals[at]).map(|c| (c * 255.0).round() as u8)),
+            _ => match layers.distance[at] {
+                far if far.is_infinite() => Rgb([0; 3]),
+                distance => pixel([nearest / distance; 3]),
+            },
+        }
+    })
 }
 
 /// Whether the picture is what the method shaded.
 fn shows_radiance(show: &Show, layers: &Layers) -> bool {
-    layers.shaded.is_some() && show.base == Base::Picture
+    layers.shaded.is_some() && show.base.is_picture()
 }
 
 /// How much of a pixel is covered below the overlay, 0 to 1.
 fn covered(show: &Show, layers: &Layers, position: usize) -> f32 {
     match (&layers.shaded, show.base) {
-        (Some(shaded), Base::Picture) => shaded[position][3].to_f32(),
+        (Some(shaded), base) if base.is_picture() => shaded[position][3].to_f32(),
         _ => f32::from(u8::from(layers.distance[position].is_finite())),
     }
 }
@@ -115,11 +141,16 @@ fn combined(layers: &Layers) -> Vec<Known> {
 }
 
 impl Base {
+    /// Whether surfaces show what was shaded, also beside other pictures.
+    fn is_picture(self) -> bool {
+        matches!(self, Self::Picture | Self::Gbuffer)
+    }
+
     fn count(self, pixel: &Known) -> u32 {
         match self {
             Self::LightCount => pixel.light_count,
             Self::FragmentCount => pixel.fragment_count,
-            Self::Picture | Self::Clusters | Self::Slices => 0,
+            Self::Picture | Self::Clusters | Self::Slices | Self::Gbuffer => 0,
         }
     }
 }
@@ -133,7 +164,7 @@ fn surface(
     let [r, g, b, light] = layers.clay[position].map(f16::to_f32);
     if layers.distance[position].is_infinite() {
         return match (&layers.shaded, show.base) {
-            (Some(shaded), Base::Picture) => radiance(shaded[position]),
+            (Some(shaded), base) if base.is_picture() => radiance(shaded[position]),
             _ => Surface::Plain(NOTHING),
         };
     }
@@ -142,8 +173,8 @@ fn surface(
         return Surface::Plain(MISSING.map(|c| c * light));
     }
     match (show.base, &layers.shaded) {
-        (Base::Picture, Some(shaded)) => radiance(shaded[position]),
-        (Base::Picture, None) => Surface::Plain([r, g, b]),
+        (Base::Picture | Base::Gbuffer, Some(shaded)) => radiance(shaded[position]),
+        (Base::Picture | Base::Gbuffer, None) => Surface::Plain([r, g, b]),
         _ if missing => Surface::Plain([DIMMED * light * light; 3]),
         (Base::Clusters | Base::Slices, _) => {
             let cell = grids[pixel.clustering].cluster_at(pixel.cluster_index);

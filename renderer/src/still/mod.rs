@@ -6,7 +6,7 @@
 //!
 //! ```text
 //! frame (as replayed) ─> counts
-//!    └─> camera: depth, clay, pixel_clusters[c], overlay ─> compose ─> PNG, EXR
+//!    └─> camera: depth, clay, pixel_clusters[c], overlay, (gbuffer) ─> compose ─> PNG, EXR
 //! ```
 
 pub(crate) mod camera;
@@ -26,6 +26,7 @@ use crate::inputs::Inputs;
 use crate::measure::{FrameCounts, ViewPixels};
 use crate::methods::{Groups, Method, Scenery};
 use crate::output::PlannedRun;
+use crate::shading::ShadingPipeline;
 use crate::{Error, Result};
 use camera::Camera;
 use clap::ValueEnum;
@@ -53,6 +54,9 @@ pub enum Item {
     Octree,
     /// Beside the picture, one of the hash tables of each depth of the octree: slots that are taken, offsets as colours.
     Hash,
+    /// What the G-buffer of deferred shading holds, side by side: base colours, normals (their axes as red, green and blue) and
+    /// depth (white nearest).
+    Gbuffer,
 }
 
 /// What the surfaces of a still show.
@@ -69,6 +73,8 @@ pub enum Base {
     LightCount,
     /// A heat map of fragments.
     FragmentCount,
+    /// What a G-buffer holds, side by side.
+    Gbuffer,
 }
 
 /// All that a still shows.
@@ -101,6 +107,7 @@ impl Show {
                 Item::Slices => Base::Slices,
                 Item::LightCount => Base::LightCount,
                 Item::FragmentCount => Base::FragmentCount,
+                Item::Gbuffer => Base::Gbuffer,
                 Item::Frusta => {
                     show.frusta = true;
                     continue;
@@ -124,19 +131,28 @@ impl Show {
             };
             if show.base != Base::Picture && show.base != base {
                 return Err(Error::input(
-                    "show: clusters, slices, light-count and fragment-count exclude each other: choose one of them",
+                    "show: clusters, slices, light-count, fragment-count and gbuffer exclude each other: choose one of them",
                 ));
             }
             show.base = base;
         }
+        if show.base == Base::Gbuffer && (show.frusta || show.lights || show.missing) {
+            return Err(Error::input("show: gbuffer is shown by itself: leave the others out"));
+        }
         Ok(show)
     }
 
-    /// Refuses what a method without clusters, or without an octree, cannot show.
-    fn check(&self, method: &Method) -> Result<()> {
+    /// Refuses what a method without clusters, or without an octree, or a pipeline without a G-buffer, cannot show.
+    fn check(&self, method: &Method, pipeline: ShadingPipeline) -> Result<()> {
+        if self.base == Base::Gbuffer && pipeline == ShadingPipeline::Forward {
+            return Err(Error::input(
+                "show: forward shading has no G-buffer: add --pipeline deferred, or leave gbuffer out",
+            ));
+        }
+        let of_groups = !matches!(self.base, Base::Picture | Base::Gbuffer) || self.missing;
         let of_cells = matches!(self.base, Base::Clusters | Base::Slices) || self.missing;
         match method.kind().groups {
-            Groups::Nothing if self.base != Base::Picture || self.missing => Err(Error::input(format!(
+            Groups::Nothing if of_groups => Err(Error::input(format!(
                 "show: {method} has no clusters: choose a clustered method, or show frusta and lights alone"
             ))),
             Groups::Leaves if of_cells => Err(Error::input(format!(
@@ -155,7 +171,7 @@ impl Show {
 pub struct Still {
     /// Name of the camera.
     pub view: String,
-    /// Picture as a display shows it.
+    /// Picture as a display shows it; of a G-buffer three pictures side by side.
     pub image: RgbImage,
     /// Colour in linear light, and everything known of the pixels.
     pub pixels: ViewPixels,
@@ -170,7 +186,7 @@ pub struct Still {
 /// # Errors
 /// Bad input, a camera that is not known, something that the method cannot show, and whatever fails on the device.
 pub fn render(inputs: &Inputs, run: &PlannedRun, viewpoint: Viewpoint, show: &Show) -> Result<Still> {
-    show.check(&run.method)?;
+    show.check(&run.method, run.config.pipeline[0])?;
     let config = &drawn_plainly(&run.config);
     let plans = plan_frames(config, &inputs.recording)?;
     let plan = &plans[0];
@@ -242,12 +258,25 @@ mod tests {
         assert_eq!(show, Show { base: Base::Clusters, frusta: true, missing: true, ..Show::default() });
         assert!(Show::from_items(&[Item::Clusters, Item::LightCount]).is_err());
         assert!(Show::from_items(&[Item::Clusters, Item::Slices]).is_err());
-        assert!(show.check(&Method::AllLights).is_err());
+        let forward = ShadingPipeline::Forward;
+        assert!(show.check(&Method::AllLights, forward).is_err());
         let hashed: Method = "hashed-0.5-3".parse().unwrap();
         let leaves = Show::from_items(&[Item::LightCount, Item::Octree, Item::Hash]).unwrap();
-        assert!(leaves.check(&hashed).is_ok() && show.check(&hashed).is_err());
-        assert!(leaves.check(&"indi-persp-64".parse().unwrap()).is_err());
-        assert!(Show::from_items(&[Item::Octree]).unwrap().check(&Method::AllLights).is_err());
-        assert!(Show::from_items(&[Item::Frusta, Item::Lights]).unwrap().check(&Method::AllLights).is_ok());
+        assert!(leaves.check(&hashed, forward).is_ok() && show.check(&hashed, forward).is_err());
+        assert!(leaves.check(&"indi-persp-64".parse().unwrap(), forward).is_err());
+        assert!(Show::from_items(&[Item::Octree]).unwrap().check(&Method::AllLights, forward).is_err());
+        assert!(
+            Show::from_items(&[Item::Frusta, Item::Lights])
+                .unwrap()
+                .check(&Method::AllLights, forward)
+                .is_ok()
+        );
+        let check = |show: &Show, pipeline| show.check(&Method::AllLights, pipeline).is_ok();
+        assert!(!check(&show, ShadingPipeline::Deferred));
+        let lights = Show::from_items(&[Item::Frusta, Item::Lights]).unwrap();
+        assert!(check(&lights, ShadingPipeline::Forward));
+        let gbuffer = Show::from_items(&[Item::Gbuffer]).unwrap();
+        assert!(check(&gbuffer, ShadingPipeline::Deferred) && !check(&gbuffer, ShadingPipeline::Forward));
+        assert!(Show::from_items(&[Item::Lights, Item::Gbuffer]).is_err());
     }
 }

@@ -135,7 +135,12 @@ impl<'a> Onlooker<'a> {
             lines: line_buffer.as_ref().map(|buffer| (buffer, lines.len() as u32)),
             spheres: self.show.lights,
         };
-        let outputs = Outputs { clay: &clay, overlay: &overlay, clusterings: &known };
+        let gbuffer = match self.show.base {
+            Base::Gbuffer => Some([readback(color_bytes)?, readback(color_bytes)?]),
+            _ => None,
+        };
+        let outputs =
+            Outputs { clay: &clay, overlay: &overlay, clusterings: &known, gbuffer: gbuffer.as_ref() };
         engine.follow_up(session, SLOT, |r, frame| record::record(r, frame, &drawing, &outputs))?;
         let pixels = self.pixel_count();
         let color = |buffer: &Buffer| {
@@ -151,7 +156,8 @@ impl<'a> Onlooker<'a> {
             Camera::View(view) => Some(shaded.swap_remove(view).color),
             Camera::BirdsEye | Camera::Placed(_) => None,
         };
-        Ok(Layers { shaded, clay: color(&clay), overlay: color(&overlay), clusterings, distance })
+        let gbuffer = gbuffer.as_ref().map(|parts| parts.each_ref().map(color));
+        Ok(Layers { shaded, clay: color(&clay), overlay: color(&overlay), clusterings, distance, gbuffer })
     }
 
     /// The frame's frusta and boxes, relative to its origin.

@@ -1,7 +1,10 @@
 //! The commands of a still, after its frame has ended: what one camera sees, and what lies over it.
 
 use crate::pass::Recorder;
-use crate::passes::{Eyes, Frame, clay, depth, draws, lines, pixel_clusters, pixel_maps, resolve, spheres};
+use crate::passes::gbuffer_picture::{self, Shown};
+use crate::passes::{
+    Eyes, Frame, clay, depth, draws, gbuffer, lines, pixel_clusters, pixel_maps, resolve, spheres,
+};
 use crate::pipelines::DebugPipelines;
 use crate::targets::TargetName;
 use crate::vk::Buffer;
@@ -30,9 +33,11 @@ pub struct Outputs<'a> {
     pub overlay: &'a Buffer,
     /// What each of the clusterings knows of the pixels.
     pub clusterings: &'a [Buffer],
+    /// What the G-buffer holds, in the order of [`Shown::ALL`], where that is asked for.
+    pub gbuffer: Option<&'a [Buffer; Shown::ALL.len()]>,
 }
 
-/// Records stage `still > depth, clay, pixel_clusters[c], overlay`.
+/// Records stage `still > depth, clay, pixel_clusters[c], overlay`, and `gbuffer, gbuffer_picture` where that is asked for.
 pub fn record(r: &mut Recorder, frame: &Frame, drawing: &Drawing, outputs: &Outputs) {
     let view = drawing.view;
     r.scope("still", |r| {
@@ -52,6 +57,13 @@ pub fn record(r: &mut Recorder, frame: &Frame, drawing: &Drawing, outputs: &Outp
             draws::overlays(r, frame, view, &overlays);
         });
         copy_out(r, frame, view, outputs.overlay);
+        if let (Some(pipeline), Some(targets)) = (&drawing.pipelines.gbuffer_picture, outputs.gbuffer) {
+            let surfaces = gbuffer::record(r, frame, Eyes::One(view));
+            for (shown, target) in Shown::ALL.into_iter().zip(targets) {
+                gbuffer_picture::record(r, frame, (pipeline, shown), (view, surfaces));
+                copy_out(r, frame, view, target);
+            }
+        }
     });
 }
 

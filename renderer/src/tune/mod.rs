@@ -74,6 +74,9 @@ fn check(config: &Config) -> Result<()> {
             "shading: sizes are searched for one way of shading: tune one after the other",
         ));
     }
+    if config.pipeline.len() > 1 {
+        return Err(Error::input("pipeline: sizes are searched for one pipeline: tune one after the other"));
+    }
     let counts: Vec<u32> = config.lights.iter().map(|lighting| lighting.count).collect();
     match counts.iter().enumerate().find(|(place, count)| counts[..*place].contains(count)) {
         Some((_, count)) => Err(Error::Input(format!(

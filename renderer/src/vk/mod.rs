@@ -29,7 +29,7 @@ pub use context::{Context, DeviceOptions, c_string};
 pub use device::{DeviceListing, ListedDevice, list_devices};
 pub use image::{Image, ImageDesc};
 pub use limits::{DeviceInfo, Limits};
-pub use pipeline::{GraphicsDesc, Pipeline, compute_pipeline, graphics_pipeline};
+pub use pipeline::{Blend, GraphicsDesc, Pipeline, compute_pipeline, graphics_pipeline};
 pub use sampler::SamplerCache;
 pub use shader::ShaderLibrary;
 pub use texel_view::{TexelView, texel_bytes};

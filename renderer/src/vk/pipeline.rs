@@ -40,6 +40,17 @@ pub fn compute_pipeline(
     finish(context, made, name)
 }
 
+/// What becomes of what a pipeline draws over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Blend {
+    /// It is replaced.
+    Replace,
+    /// The source lies over it by its (not premultiplied) alpha; alpha accumulates coverage.
+    Over,
+    /// The source's colour is added; alpha remains.
+    Add,
+}
+
 /// What a graphics pipeline does but for its shaders. Start from [`Default`].
 #[derive(Clone, Copy)]
 pub struct GraphicsDesc<'a> {
@@ -65,8 +76,8 @@ pub struct GraphicsDesc<'a> {
     pub depth_format: Option<vk::Format>,
     /// Formats of the colour attachments, in the order of the fragment shader's locations.
     pub color_formats: &'a [vk::Format],
-    /// Blends by the source's (not premultiplied) alpha over what is there, in every attachment; alpha accumulates coverage.
-    pub blend: bool,
+    /// What becomes of what is there, in every attachment.
+    pub blend: Blend,
     /// Samples of the attachments.
     pub samples: vk::SampleCountFlags,
     /// Runs the fragment shader once per sample; needs the limit `sample_rate_shading`.
@@ -88,7 +99,7 @@ impl Default for GraphicsDesc<'_> {
             depth_compare: None,
             depth_format: None,
             color_formats: &[],
-            blend: false,
+            blend: Blend::Replace,
             samples: vk::SampleCountFlags::TYPE_1,
             sample_shading: false,
         }
@@ -162,14 +173,20 @@ pub fn graphics_pipeline(
     finish(context, made, name)
 }
 
-fn blend_state(blend: bool) -> vk::PipelineColorBlendAttachmentState {
+fn blend_state(blend: Blend) -> vk::PipelineColorBlendAttachmentState {
+    use vk::BlendFactor as F;
+    let [color, alpha] = match blend {
+        Blend::Replace => [[F::ONE, F::ZERO]; 2],
+        Blend::Over => [[F::SRC_ALPHA, F::ONE_MINUS_SRC_ALPHA], [F::ONE, F::ONE_MINUS_SRC_ALPHA]],
+        Blend::Add => [[F::ONE, F::ONE], [F::ZERO, F::ONE]],
+    };
     vk::PipelineColorBlendAttachmentState::default()
-        .blend_enable(blend)
-        .src_color_blend_factor(vk::BlendFactor::SRC_ALPHA)
-        .dst_color_blend_factor(vk::BlendFactor::ONE_MINUS_SRC_ALPHA)
+        .blend_enable(blend != Blend::Replace)
+        .src_color_blend_factor(color[0])
+        .dst_color_blend_factor(color[1])
         .color_blend_op(vk::BlendOp::ADD)
-        .src_alpha_blend_factor(vk::BlendFactor::ONE)
-        .dst_alpha_blend_factor(vk::BlendFactor::ONE_MINUS_SRC_ALPHA)
+        .src_alpha_blend_factor(alpha[0])
+        .dst_alpha_blend_factor(alpha[1])
         .alpha_blend_op(vk::BlendOp::ADD)
         .color_write_mask(vk::ColorComponentFlags::RGBA)
 }

@@ -51,8 +51,11 @@ impl Drop for TexelView {
 /// Support").
 pub fn texel_bytes(format: vk::Format) -> u64 {
     match format {
-        vk::Format::R16_UINT => 2,
-        vk::Format::R32_UINT | vk::Format::R8G8B8A8_UINT => 4,
+        vk::Format::R16_UINT | vk::Format::R16_UNORM => 2,
+        vk::Format::R32_UINT
+        | vk::Format::R8G8B8A8_UINT
+        | vk::Format::R8G8B8A8_SRGB
+        | vk::Format::R16G16_SNORM => 4,
         vk::Format::R16G16B16A16_SFLOAT | vk::Format::R32G32_UINT => 8,
         vk::Format::R32G32B32A32_SFLOAT | vk::Format::R32G32B32A32_UINT => 16,
         other => unreachable!("no buffer or target has texels of {other:?}"),

@@ -110,6 +110,8 @@ fn a_still_is_written_as_png_and_exr() {
         (&["--runs", "2"][..], "--runs"),
         (&["--view", "above"], "birdseye"),
         (&["--show", "clusters,light-count"], "exclude each other"),
+        (&["--show", "gbuffer"], "--pipeline deferred"),
+        (&["--pipeline", "deferred", "--msaa", "4", "--marking", "geometry"], "no sample need lie"),
         (&["--method", "indi-persp-64"], "once"),
         (&["--frame", "9000"], "reach beyond"),
         (&["--eye", "1,2,3"], "--target"),

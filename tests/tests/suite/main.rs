@@ -6,6 +6,7 @@ mod bench;
 mod command_line;
 mod commands;
 mod corpus;
+mod deferred;
 mod depth_slices;
 mod drivers;
 mod enhuber;

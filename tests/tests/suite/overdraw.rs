@@ -6,7 +6,7 @@ use manylight::config::{Config, ExrFrames, FrameRange, Scopes};
 use manylight::culling::Culling;
 use manylight::lights::Lighting;
 use manylight::measure::DeviceCounts;
-use manylight::shading::Shading;
+use manylight::shading::{Shading, ShadingPipeline};
 use manylight_tests::scenes::{Quad, recording, write_quads};
 use manylight_tests::{Run, assert_equal_the_truth, methods, run, three_frames};
 
@@ -111,7 +111,7 @@ fn squares(distances: &[(f32, f32)]) -> Vec<Quad> {
 }
 
 /// What is counted of squares under one light by all lights and by clusters that hold something visible, with overdraw.
-fn counted(distances: &[(f32, f32)]) -> [DeviceCounts; 2] {
+fn counted(distances: &[(f32, f32)], pipeline: ShadingPipeline) -> [DeviceCounts; 2] {
     let directory = tempfile::tempdir().unwrap();
     let path = |name: &str| directory.path().join(name);
     write_quads(&path("squares.gltf"), &squares(distances), [0.0; 3], &[([0.5, 0.0, -1.0], 50.0)]);
@@ -124,6 +124,7 @@ fn counted(distances: &[(f32, f32)]) -> [DeviceCounts; 2] {
         recording: text("still.json"),
         methods: methods(&["all-lights", "sc-e-12-40"]),
         shading: vec![Shading::Overdraw],
+        pipeline: vec![pipeline],
         lights: vec![],
         scene_lights: true,
         resolution: [64, 64],
@@ -135,12 +136,13 @@ fn counted(distances: &[(f32, f32)]) -> [DeviceCounts; 2] {
 }
 
 /// (Fragments shaded, hidden) of squares, by both methods.
-fn shaded(distances: &[(f32, f32)]) -> [(u64, u64); 2] {
-    counted(distances).map(|counts| (counts.fragments_shaded, counts.fragments_hidden))
+fn shaded(distances: &[(f32, f32)], pipeline: ShadingPipeline) -> [(u64, u64); 2] {
+    counted(distances, pipeline).map(|counts| (counts.fragments_shaded, counts.fragments_hidden))
 }
 
 #[test]
 fn what_is_drawn_behind_is_not_shaded_and_what_is_drawn_over_is_hidden() {
+    let shaded = |distances: &[(f32, f32)]| shaded(distances, ShadingPipeline::Forward);
     let [alone, far] = [&[(2.0, 0.25)][..], &[(4.0, 1.0)]].map(|square| shaded(square)[0]);
     assert!(alone.0 > 20 && far.0 > 2 * alone.0 && (alone.1, far.1) == (0, 0), "{alone:?} {far:?}");
     // The near square hides as much as it covers, and is hidden by nothing.
@@ -150,11 +152,21 @@ fn what_is_drawn_behind_is_not_shaded_and_what_is_drawn_over_is_hidden() {
     assert_eq!(shaded(&[(4.0, 1.0), (4.0, 1.0)]), [(2 * far.0, 0); 2]);
 }
 
+#[test]
+fn deferred_shading_evaluates_lights_once_for_what_is_seen() {
+    let shaded = |distances: &[(f32, f32)]| shaded(distances, ShadingPipeline::Deferred);
+    let far = shaded(&[(4.0, 1.0)]);
+    assert!(far[0].0 > 100 && far == [(far[0].0, 0); 2], "{far:?}");
+    for distances in [[(2.0, 0.25), (4.0, 1.0)], [(4.0, 1.0), (2.0, 0.25)], [(4.0, 1.0), (4.0, 1.0)]] {
+        assert_eq!(shaded(&distances), far, "{distances:?}");
+    }
+}
+
 /// A square that is hidden altogether lies in clusters that nobody sees: it is shaded by none of the lights on the lists of others.
 #[test]
 fn what_finds_no_group_has_no_lights() {
-    let near = counted(&[(2.0, 1.0)]);
-    let over = counted(&[(4.0, 1.0), (2.0, 1.0)]);
+    let near = counted(&[(2.0, 1.0)], ShadingPipeline::Forward);
+    let over = counted(&[(4.0, 1.0), (2.0, 1.0)], ShadingPipeline::Forward);
     let evaluated = |counts: [DeviceCounts; 2]| counts.map(|counts| counts.lighting_computations);
     let ([all, clustered], shaded) = (evaluated(over), near[0].fragments_shaded + over[0].fragments_hidden);
     assert!(over[0].fragments_hidden > 100 && over[0].fragments_hidden == over[1].fragments_hidden);

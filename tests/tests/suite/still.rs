@@ -6,6 +6,7 @@ use manylight::engine::{FramePlan, plan_frames};
 use manylight::inputs::Inputs;
 use manylight::lights::Lighting;
 use manylight::output::planned_runs;
+use manylight::shading::{Shading, ShadingPipeline};
 use manylight::still::{Item, Placed, Show, Still, Viewpoint, render};
 use manylight_tests::run;
 
@@ -193,4 +194,46 @@ fn a_camera_may_be_placed_anywhere_and_sees_the_same_frame() {
     let agree = agree.count();
     assert!(clustered.len() > 20, "{} pixels with clusters", clustered.len());
     assert!(100 * agree >= 95 * clustered.len(), "{agree} of {}", clustered.len());
+}
+
+/// From a view of the recording and from above, whether or not there is a prepass.
+#[test]
+fn a_gbuffer_is_shown_as_base_colours_normals_and_depth_beside_the_picture_that_it_makes() {
+    let plain = config("bistro", "sc-e-48-40");
+    let inputs = Inputs::load(&plain).unwrap();
+    let forward = still(&plain, &inputs, None, &[]);
+    let [width, height] = plain.resolution;
+    for (shading, msaa) in [(Shading::Prepass, 1), (Shading::Overdraw, 1), (Shading::Prepass, 4)] {
+        let (shading, pipeline) = (vec![shading], vec![ShadingPipeline::Deferred]);
+        let config = Config { shading, pipeline, msaa, ..plain.clone() };
+        for view in [None, Some("birdseye")] {
+            let shown = still(&config, &inputs, view, &[Item::Gbuffer]);
+            assert_eq!(shown.image.dimensions(), (3 * width, height));
+            let part =
+                |part: u32, x: u32, y: u32| shown.image.get_pixel(part * width + x, y).0.map(f32::from);
+            let mut upward = 0;
+            for (at, distance) in (0..).zip(&shown.pixels.depth) {
+                let (x, y) = (at % width, at / width);
+                let [base, normal, depth] = [0, 1, 2].map(|which| part(which, x, y));
+                if msaa > 1 {
+                    continue;
+                }
+                assert_eq!(distance.is_finite(), depth[0] > 0.0);
+                if distance.is_finite() {
+                    let length = normal.map(|c| (c / 127.5 - 1.0).powi(2)).iter().sum::<f32>().sqrt();
+                    assert!((length - 1.0).abs() < 0.02, "{normal:?}");
+                    upward += u32::from(normal[1] > 240.0);
+                } else {
+                    assert_eq!((base, normal), ([0.0; 3], [0.0; 3]));
+                }
+            }
+            assert!(msaa > 1 || upward > width * height / 20, "the street lies flat: {upward}");
+            if view.is_none() && msaa == 1 {
+                let away = |a: &[half::f16; 4], b: &[half::f16; 4]| (a[0].to_f32() - b[0].to_f32()).abs();
+                let colors = shown.pixels.color.iter().zip(&forward.pixels.color);
+                assert!(colors.clone().any(|(a, _)| a[0].to_f32() > 0.1));
+                colors.for_each(|(a, b)| assert!(away(a, b) < 0.03 * b[0].to_f32() + 2e-3, "{a:?} {b:?}"));
+            }
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use manylight::assign::Marking;
 use manylight::config::{Config, ExrFrames, FrameRange};
-use manylight::shading::Shading;
+use manylight::shading::{Shading, ShadingPipeline};
 use manylight_tests::{Run, methods, run};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -35,7 +35,8 @@ fn write_square(path: &Path, node: Value, material: Value, alpha: u8) {
     std::fs::write(path, gltf.to_string()).unwrap();
 }
 
-/// The square seen aslant under two lights, by all lights and by clusters, each after a prepass and with overdraw.
+/// The square seen aslant under two lights, by all lights and by clusters, each after a prepass and with overdraw, forward and, where
+/// samples lie where they are marked, deferred.
 fn draw(node: Value, material: Value, alpha: u8, samples: (u32, Marking)) -> Vec<Run> {
     let directory = tempfile::tempdir().unwrap();
     let file = |name: &str| directory.path().join(name).to_str().unwrap().to_owned();
@@ -54,6 +55,10 @@ fn draw(node: Value, material: Value, alpha: u8, samples: (u32, Marking)) -> Vec
         recording: file("still.json"),
         methods: methods(&["all-lights", "indi-persp-64"]),
         shading: vec![Shading::Prepass, Shading::Overdraw],
+        pipeline: match samples.1 {
+            Marking::Depth => vec![ShadingPipeline::Forward, ShadingPipeline::Deferred],
+            Marking::Geometry => vec![ShadingPipeline::Forward],
+        },
         lights: vec![],
         lights_file: Some(file("lights.csv").into()),
         resolution: [160, 120],
@@ -76,12 +81,13 @@ fn alpha_equal_to_the_cutoff_is_opaque() {
     let masked = |cutoff: f32| json!({ "alphaMode": "MASK", "alphaCutoff": cutoff });
     for samples in [(1, Marking::Depth), (4, Marking::Depth), (4, Marking::Geometry)] {
         let whole = fragments(&draw(node(), json!({}), 255, samples));
-        assert!(whole[0] > 6000 && whole == [whole[0]; 4], "{whole:?}");
+        assert!(whole[0] > 6000 && whole == vec![whole[0]; whole.len()], "{whole:?}");
         // The next number above the alpha is the first that discards.
         for alpha in [255, 128, 77] {
             let equal = f32::from(alpha) / 255.0;
             assert_eq!(fragments(&draw(node(), masked(equal), alpha, samples)), whole, "{alpha} {samples:?}");
-            assert_eq!(fragments(&draw(node(), masked(equal.next_up()), alpha, samples)), [0; 4], "{alpha}");
+            let cut_out = fragments(&draw(node(), masked(equal.next_up()), alpha, samples));
+            assert_eq!(cut_out, vec![0; whole.len()], "{alpha}");
         }
     }
 }

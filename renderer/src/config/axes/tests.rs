@@ -4,7 +4,7 @@ use super::*;
 use crate::assign::{Compaction, ListStore};
 use crate::config::{Assign, Exclude};
 use crate::methods::OctreeWay;
-use crate::shading::Shading;
+use crate::shading::{Shading, ShadingPipeline};
 use std::collections::BTreeSet;
 
 /// Several values on every axis.
@@ -21,6 +21,7 @@ fn everything() -> Config {
         bounds: vec![Bounds::Measured.into(), Choice::Auto],
         slices: vec![Choice::Auto, SliceLaw::Geometric.into(), SliceLaw::Linear.into()],
         shading: vec![Shading::Prepass, Shading::Overdraw],
+        pipeline: vec![ShadingPipeline::Forward, ShadingPipeline::Deferred],
         lists: vec![ListStore::Offsets, ListStore::Fixed(8)],
         compaction: vec![Compaction::Ranks, Compaction::Atomic],
         octree: vec![OctreeWay::Rebuild, OctreeWay::Seed(7)],
@@ -35,8 +36,8 @@ fn runs() -> Vec<Config> {
 #[test]
 fn the_product_has_every_combination_that_differs_once() {
     // Of three tests, Persp has its own under two names and Ortho has not, and so it is of slices, which Ortho has none of;
-    // the third method knows no ways of assignment, and the fourth but two of making octrees. All are shaded in two ways.
-    assert_eq!(runs().len(), 2 * 2 * 2 * 2 * ((2 * 2 * 2 * 2 * 2 + 2 * 3 * 2 * 2) * 2 * 2 + 1 + 2));
+    // the third method knows no ways of assignment, and the fourth but two of making octrees. All are shaded in two ways by two pipelines.
+    assert_eq!(runs().len(), 2 * 2 * 2 * 2 * 2 * ((2 * 2 * 2 * 2 * 2 + 2 * 3 * 2 * 2) * 2 * 2 + 1 + 2));
     for run in runs() {
         assert_eq!((run.by_scene(), run.cases()), (vec![run.clone()], vec![run]));
     }

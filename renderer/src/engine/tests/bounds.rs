@@ -8,7 +8,7 @@ use crate::cpu::{ClusterBounds, DepthImage, Marks};
 use crate::geometry::views::View;
 use crate::geometry::{ClusterSpace, MeasuredBounds, SliceLaw, Slices};
 use crate::gpu_interface::PixelData;
-use crate::passes::{cull, mark, pixel_clusters};
+use crate::passes::{Depth, cull, mark, pixel_clusters};
 use crate::selftest::cases::noise;
 
 /// What f32 may make of tangents, of metres, and of depths in parts of them.
@@ -67,7 +67,7 @@ fn measure(bench: &mut Bench, method: Method, view: &View) -> Measured {
     bench.run(|r, frame| {
         let lights = light_upload::record(r, frame);
         cull::record(r, frame);
-        method.record(r, frame, lights);
+        method.record(r, frame, (lights, Depth::NONE));
         mark::count_fragments(r, frame, 0);
         pixel_clusters::record(r, frame, &frame.pipelines.pixel_maps, (0, 0), &seen);
     });

@@ -4,6 +4,6 @@
 use crate::passes::{Depth, LightLists};
 
 /// Records nothing: shading walks the lights themselves (`lookup/all_lights.glsl`).
-pub fn record() -> (Depth, LightLists) {
-    (Depth::NONE, LightLists::ALL_LIGHTS)
+pub fn record(depth: Depth) -> (Depth, LightLists) {
+    (depth, LightLists::ALL_LIGHTS)
 }

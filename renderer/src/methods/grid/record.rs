@@ -16,9 +16,9 @@ use crate::passes::{
     hierarchy, list_clusters, mark, scan, take_places,
 };
 
-/// Records all clusterings; the depth that comes back is what marking needed of it.
-pub fn record(r: &mut Recorder, frame: &Frame, lights: Lights) -> (Depth, LightLists) {
-    let mut made = (Depth::NONE, LightLists::NONE);
+/// Records all clusterings; the depth that comes back is what is there with what marking needed beside.
+pub fn record(r: &mut Recorder, frame: &Frame, (lights, depth): (Lights, Depth)) -> (Depth, LightLists) {
+    let mut made = (depth, LightLists::NONE);
     for clustering in 0..frame.clusterings.len() {
         r.scope(("cluster", clustering), |r| {
             let (depth, visible) = match frame.clusters {

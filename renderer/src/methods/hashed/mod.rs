@@ -105,8 +105,8 @@ pub fn bounds(lights: &[PointLight]) -> Option<(DVec3, DVec3)> {
 }
 
 /// Records what shading needs to find lights: the tables, where the device has not those of this frame.
-pub fn record(r: &mut Recorder, frame: &Frame) -> (Depth, LightLists) {
-    (Depth::NONE, octree::record(r, frame))
+pub fn record(r: &mut Recorder, frame: &Frame, depth: Depth) -> (Depth, LightLists) {
+    (depth, octree::record(r, frame))
 }
 
 #[cfg(test)]

@@ -181,11 +181,14 @@ fn one_pass_draws_into_two_targets_of_unlike_formats() {
 }
 
 #[test]
-fn blending_is_source_alpha_over_what_is_there() {
+fn blending_is_by_alpha_over_what_is_there_or_adds_to_it() {
     silently(|context| {
-        let pixels = draw(context, GraphicsDesc { blend: true, ..Default::default() }, LOWER_LEFT);
+        let pixels = draw(context, GraphicsDesc { blend: Blend::Over, ..Default::default() }, LOWER_LEFT);
         let blended = pixels[((SIDE - 1) * SIDE) as usize];
         assert!(nearly(blended, [128, 128, 128, 128]), "{blended:?}");
+        let pixels = draw(context, GraphicsDesc { blend: Blend::Add, ..Default::default() }, LOWER_LEFT);
+        let added = pixels[((SIDE - 1) * SIDE) as usize];
+        assert_eq!(added, [255, 255, 255, 0], "colour is added as it is, and alpha remains");
     });
 }
 

@@ -1,0 +1,8 @@
+// A triangle over the whole picture, where nothing is: at the depth that the background has.
+#version 460
+
+void main()
+{
+    vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1);
+    gl_Position = vec4(4.0 * corner - 1.0, 0.0, 1.0);
+}
