@@ -5,7 +5,8 @@ mod structs;
 
 pub use structs::{
     Candidate, ClusterBox, ClusterGroup, ClusteringState, DispatchSize, DrawCommand, DrawCounts, GridData,
-    InstanceData, LightData, LightNode, LightVolume, MaterialData, ModelBox, PixelData, Push, ViewData,
+    InstanceData, LightData, LightNode, LightRectangle, LightVolume, MaterialData, ModelBox, PixelData, Push,
+    ViewData,
 };
 
 use crate::geometry::VolumeKind;
@@ -48,6 +49,14 @@ const BLOCK_EXTREMES: u32 = (4 * BLOCK_COLUMNS * BLOCK_COLUMNS - 1) / 3;
 pub const BLOCK_WORDS: u32 = BLOCK_EXTREMES + 6;
 /// Groups of clusters that one thread takes a candidate to.
 pub const GROUP_CHUNK: u32 = 16;
+/// Threads that share the cells which a light is seen in.
+pub const RECTANGLE_SPLIT: u32 = 16;
+/// Cells that a thread takes a light to in one turn.
+pub const RECTANGLE_CHUNK: u32 = 16;
+/// Threads of a workgroup that sorts the samples of a tile.
+pub const SORT_TILE_WORKGROUP: u32 = 128;
+/// Slices of a grid whose tiles are sorted, at most.
+pub const SORT_TILE_SLICES: u32 = 2048;
 /// Threads of a cluster, among which the hierarchy's subtrees are dealt out.
 pub const TREE_SPLIT: u32 = 8;
 /// Index of the dispatch size with a thread a list.
@@ -89,7 +98,7 @@ pub const MEASUREMENT_WORDS: u64 = 4096;
 /// How many 64-bit counters the atemporal run has: as many as [`DeviceCounts`] has fields.
 pub const COUNTER_COUNT: usize = DeviceCounts::NAMES.len();
 
-const CONSTANTS: [(&str, u32); 31] = [
+const CONSTANTS: [(&str, u32); 35] = [
     ("SET_BUFFERS", SET_BUFFERS),
     ("SET_MATERIAL", SET_MATERIAL),
     ("SET_DEPTH", SET_DEPTH),
@@ -104,6 +113,10 @@ const CONSTANTS: [(&str, u32); 31] = [
     ("BLOCK_COLUMNS", BLOCK_COLUMNS),
     ("BLOCK_EXTREMES", BLOCK_EXTREMES),
     ("GROUP_CHUNK", GROUP_CHUNK),
+    ("RECTANGLE_SPLIT", RECTANGLE_SPLIT),
+    ("RECTANGLE_CHUNK", RECTANGLE_CHUNK),
+    ("SORT_TILE_WORKGROUP", SORT_TILE_WORKGROUP),
+    ("SORT_TILE_SLICES", SORT_TILE_SLICES),
     ("TREE_SPLIT", TREE_SPLIT),
     ("DISPATCH_LISTS", DISPATCH_LISTS),
     ("DISPATCH_MASKED", DISPATCH_MASKED),
@@ -133,12 +146,13 @@ const TEXTURE_SLOTS: [(&str, TextureSlot); 5] = [
 ];
 
 /// Every shared struct; one comes after those it contains.
-const STRUCTS: [StructInfo; 17] = [
+const STRUCTS: [StructInfo; 18] = [
     ViewData::INFO,
     GridData::INFO,
     ClusterBox::INFO,
     LightNode::INFO,
     LightVolume::INFO,
+    LightRectangle::INFO,
     LightData::INFO,
     MaterialData::INFO,
     InstanceData::INFO,
@@ -156,8 +170,8 @@ const STRUCTS: [StructInfo; 17] = [
 /// Names of what shader variants choose among; the value is the position.
 const VARIANT_NAMES: [&[&str]; 11] = [
     &["SPACE_PERSPECTIVE", "SPACE_ORTHOGRAPHIC", "SPACE_MODEL"],
-    &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS", "SCAN_DIGITS", "SCAN_GROUPS"],
-    &["ASSIGN_BRUTE", "ASSIGN_HIERARCHY", "ASSIGN_SCATTER"],
+    &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS", "SCAN_DIGITS", "SCAN_GROUPS", "SCAN_TILES"],
+    &["ASSIGN_BRUTE", "ASSIGN_HIERARCHY", "ASSIGN_SCATTER", "ASSIGN_RECTANGLES"],
     &["CLUSTERS_VISIBLE", "CLUSTERS_ALL"],
     &[
         "SLICES_GEOMETRIC",
@@ -168,7 +182,7 @@ const VARIANT_NAMES: [&[&str]; 11] = [
         "SLICES_UNIFORM_VIEW",
     ],
     &["LISTS_OFFSETS", "LISTS_FIXED", "LISTS_CAPPED"],
-    &["COMPACTION_RANKS", "COMPACTION_ATOMIC"],
+    &["COMPACTION_RANKS", "COMPACTION_ATOMIC", "COMPACTION_SORT"],
     &["CULLING_CPU", "CULLING_GPU"],
     &["BOUNDS_CELL", "BOUNDS_DEPTH", "BOUNDS_BOX"],
     &["VISIT_MARK", "VISIT_COUNT", "VISIT_BOUNDS"],

@@ -102,6 +102,8 @@ mod boxes;
 mod cull;
 mod list_stores;
 mod list_twins;
+mod rectangles;
+mod sort_tiles;
 mod sphere_tests;
 mod targets;
 

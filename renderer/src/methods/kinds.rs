@@ -3,7 +3,7 @@
 use super::grid::{GridMethod, Space};
 use super::{Method, Sharing, WorldGrid};
 use crate::assign::{Bounds, Clusters};
-use crate::geometry::CellShape;
+use crate::geometry::{CellShape, SliceLaw, SphereTest};
 
 /// What a size is called that is a number of slices.
 const SLICES: &str = "SLICES";
@@ -47,7 +47,7 @@ const PERSPECTIVE: Kind = Kind {
 
 /// Every kind of method. All serve transparent geometry, all views in stereo, and any number of samples (models: where fragments
 /// run for each).
-pub static KINDS: [Kind; 17] = [
+pub static KINDS: [Kind; 19] = [
     Kind {
         name: "indi-persp",
         sizes: &["PIXELS"],
@@ -122,7 +122,7 @@ pub static KINDS: [Kind; 17] = [
         tuned: &[28.0],
         title: "T-I",
         about: "tiles of each view's screen, all of them with lists",
-        make: |sizes| tiles(Bounds::Implicit, sizes),
+        make: |sizes| Method::Grid(tiles(Bounds::Implicit, sizes)),
         ..PERSPECTIVE
     },
     Kind {
@@ -131,7 +131,7 @@ pub static KINDS: [Kind; 17] = [
         tuned: &[28.0],
         title: "T-E",
         about: "tiles of each view's screen, each with the depths of its samples",
-        make: |sizes| tiles(Bounds::Measured, sizes),
+        make: |sizes| Method::Grid(tiles(Bounds::Measured, sizes)),
         ..PERSPECTIVE
     },
     Kind {
@@ -184,6 +184,30 @@ pub static KINDS: [Kind; 17] = [
         ..PERSPECTIVE
     },
     Kind {
+        name: "tiled-mm",
+        sizes: &["PIXELS"],
+        tuned: &[32.0],
+        title: "Tiled MM",
+        about: "tiles of each view's screen, all of them with the lights whose rectangle on the screen meets them",
+        make: |sizes| {
+            let test = SphereTest::Projected;
+            Method::Grid(GridMethod { test, ..tiles(Bounds::Implicit, sizes) })
+        },
+        ..PERSPECTIVE
+    },
+    Kind {
+        name: "clustered-mm",
+        sizes: &["PIXELS"],
+        tuned: &[32.0],
+        title: "Clustered MM",
+        about: "such tiles in slices as deep as tiles are high, visible clusters with lists",
+        make: |sizes| {
+            let grid = GridMethod::new(Sharing::Indi, Space::Persp { pixels: sizes[0] });
+            Method::Grid(GridMethod { test: SphereTest::Projected, slices: SliceLaw::Cubes, ..grid })
+        },
+        ..PERSPECTIVE
+    },
+    Kind {
         name: "g",
         sizes: &["CELLS"],
         tuned: &[20.0],
@@ -223,9 +247,9 @@ fn displ(sharing: Sharing, sizes: &[f64]) -> Method {
 }
 
 /// Tiles that all have lists (Enhuber section 3.1).
-fn tiles(bounds: Bounds, sizes: &[f64]) -> Method {
+fn tiles(bounds: Bounds, sizes: &[f64]) -> GridMethod {
     let tiled = GridMethod::new(Sharing::Indi, Space::Tiled { pixels: sizes[0] });
-    Method::Grid(GridMethod { clusters: Clusters::All, bounds, ..tiled })
+    GridMethod { clusters: Clusters::All, bounds, ..tiled }
 }
 
 /// Tiles in slices (Enhuber section 3.2).
@@ -301,6 +325,7 @@ mod tests {
             assert_eq!((kind.sizes.len(), method.sizes().as_slice()), (kind.tuned.len(), kind.tuned));
             if let Method::Grid(grid) = method {
                 assert_eq!((grid.sharing, Some(grid.space.shape())), (kind.sharing, kind.cells));
+                assert_eq!(grid.test == SphereTest::Projected, kind.name.ends_with("-mm"), "{}", kind.name);
             }
         }
     }

@@ -1,5 +1,6 @@
 //! A method's name: the name of its kind and its sizes, as plain decimal numbers: `indi-persp-64`, `encl-ortho-0.5`,
-//! `indi-displ-64-32`, `tiled-16`, `sc-e-48-40`, `ortiz-16-9-24`, `g-20`, `m`, `all-lights`.
+//! `indi-displ-64-32`, `tiled-16`, `sc-e-48-40`, `ortiz-16-9-24`, `clustered-mm-32`, `g-20`, `m`,
+//! `all-lights`.
 
 use super::{KINDS, Kind, Method};
 use crate::{Error, Result};
@@ -72,6 +73,8 @@ mod tests {
             "g-20",
             "m",
             "ortiz-16-9-24",
+            "tiled-mm-32",
+            "clustered-mm-12.5",
             "all-lights",
         ] {
             assert_eq!(name.parse::<Method>().unwrap().to_string(), name);
@@ -104,6 +107,8 @@ mod tests {
             ("ortiz-16-9-0", "'ortiz-16-9-24'"),
             ("ortiz-16.5-9-24", "'ortiz-16-9-24'"),
             ("ortis-8-4-12", "'ortiz-8-4-12'"),
+            ("tiled-mm", "'tiled-mm-32'"),
+            ("clustered-16", "'clustered-mm-16'"),
             ("", "did you mean"),
         ] {
             let message = wrong.parse::<Method>().unwrap_err().to_string();

@@ -180,13 +180,19 @@ pub struct Frame<'a> {
     pub slot: usize,
 }
 
-/// What tells the place of a visible cluster among the lists.
-pub const PLACES: BufferSet = set(&[B::ClusterBits, B::WordRanks, B::ClusterPlaces]);
-
 impl Frame<'_> {
+    /// What tells the place of a visible cluster among the lists.
+    pub fn places(&self) -> BufferSet {
+        match self.compaction {
+            Compaction::Ranks => set(&[B::ClusterBits, B::WordRanks]),
+            Compaction::Atomic => set(&[B::ClusterBits, B::ClusterPlaces]),
+            Compaction::Sort => set(&[B::TileOffsets, B::VisibleClusters]),
+        }
+    }
+
     /// What tells the list of a cluster.
     pub fn list_places(&self) -> BufferSet {
-        PLACES
+        self.places()
             | match self.lists {
                 ListStore::Offsets => set(&[B::ListOffsets]),
                 ListStore::Fixed(_) => set(&[B::ListLengths]),
