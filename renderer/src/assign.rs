@@ -3,12 +3,16 @@
 //!
 //! All ways give the same lists. Brute force tests every visible cluster against every light. The others first drop the
 //! lights whose cells hold nothing visible; what is left, the candidates, the hierarchy puts into a tree, built anew each
-//! frame, down which each visible cluster goes, and scatter hands out to groups of visible clusters.
+//! frame, down which each visible cluster goes, and scatter hands out to groups of visible clusters. Rectangles hand each light to
+//! the clusters of the tiles in which it is seen.
 
+mod sorted_tiles;
 mod store;
 
+pub use sorted_tiles::{check_sorted_slices, check_sorted_tiles, sorted_keys, sorted_threads};
 pub use store::{Compaction, ListStore, MOST_CAPPED, MOST_FIXED};
 
+use crate::geometry::SphereTest;
 use crate::gpu_interface::{ASSIGN_WORKGROUP, BLOCK_COLUMNS, LIGHT_BLOCK, SORT_BITS, TREE_WIDTH};
 use crate::nearest;
 use clap::ValueEnum;
@@ -112,6 +116,23 @@ pub enum Assigner {
     Hierarchy,
     /// Every light to the groups of visible clusters near it.
     Scatter,
+    /// Every light to the visible clusters in the rectangle of tiles in which it is seen, and between its depths (Tegelaers).
+    Rectangles,
+}
+
+impl Assigner {
+    /// Whether lists are made of candidates: of the lights that may meet a visible cluster.
+    pub fn culls_lights(self) -> bool {
+        match self {
+            Self::Hierarchy | Self::Scatter => true,
+            Self::Brute | Self::Rectangles => false,
+        }
+    }
+
+    /// Whether it finds who meets whom by this test. A rectangle of tiles holds no lights but those that are seen in it.
+    pub fn serves(self, test: SphereTest) -> bool {
+        self != Self::Rectangles || test == SphereTest::Projected
+    }
 }
 
 impl fmt::Display for Assigner {
@@ -120,6 +141,7 @@ impl fmt::Display for Assigner {
             Self::Brute => "brute",
             Self::Hierarchy => "hierarchy",
             Self::Scatter => "scatter",
+            Self::Rectangles => "rectangles",
         })
     }
 }
@@ -166,6 +188,8 @@ impl AssignCounts {
                 let nodes = NODES_FOUND * indices + NODES_DESCENT * visible;
                 COST_HIERARCHY + COST_CULL_LIGHT * lights + COST_NODE * nodes
             }
+            // It serves one test alone, and is not chosen.
+            Assigner::Rectangles => f64::INFINITY,
         }
     }
 }
@@ -304,6 +328,14 @@ mod tests {
                 assert!(size[axis] >= 1 && (dimensions[axis] - 1) / size[axis] < most);
             }
         }
+    }
+
+    #[test]
+    fn rectangles_serve_their_own_test_alone() {
+        for test in [SphereTest::HALF_SPACES, SphereTest::Exact, SphereTest::Box] {
+            assert!(!Assigner::Rectangles.serves(test) && Assigner::Brute.serves(test));
+        }
+        assert!(Assigner::Rectangles.serves(SphereTest::Projected));
     }
 
     #[test]
