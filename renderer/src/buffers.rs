@@ -28,7 +28,10 @@
 //! All ways go to `list_lengths` by way of `light_masks` where these have room. Hierarchy and scatter first put the lights
 //! that may meet a visible cluster into `candidates` (cull_lights: `block_bits`, `light_bits`); then the hierarchy makes
 //! `sort_items`, `digit_counts`, `tree_volumes`, `tree_lights` and `light_nodes`, scatter `groups`, `packet_groups` and
-//! `group_lights`.
+//! `group_lights`. Rectangles go to `light_rectangles` instead of `light_volumes`.
+//!
+//! Visible clusters may be found by sorting the samples of tiles: `views` and `grid` go to `tile_counts` and `tile_slices`
+//! (sort_tiles), and their prefix sum to `tile_offsets`, in place of `word_ranks`.
 //!
 //! Where lights are found by an octree, the host builds `octree` with its tables, and shading alone reads them: `octree_nodes` from
 //! depth to depth, the last time `octree_leaves`, each by way of `octree_offsets`, and `octree_indices`.
@@ -45,8 +48,8 @@ pub use sizes::ClusteringSizes;
 
 use crate::gpu_interface::{
     BLOCK_WORDS, COUNTER_COUNT, Candidate, ClusterBox, ClusterGroup, ClusteringState, DISPATCH_COUNT,
-    DispatchSize, GridData, InstanceData, LightData, LightNode, LightVolume, MEASUREMENT_WORDS, OctreeData,
-    PixelData,
+    DispatchSize, GridData, InstanceData, LightData, LightNode, LightRectangle, LightVolume,
+    MEASUREMENT_WORDS, OctreeData, PixelData,
 };
 use crate::measure::{OctreeSizes, Purpose};
 use info::{buffer, bytes};
@@ -88,6 +91,11 @@ buffers! {
         .storage("LightVolume light_volumes[]")
         .texels("volume", Element::Struct(LightVolume::INFO))
         .sized(|s| bytes::<LightVolume>(s.volumes()));
+    /// The cells in which each light is seen, where lights are handed to these.
+    LightRectangles = buffer("light_rectangles", Owner::Clustering)
+        .storage("LightRectangle light_rectangles[]")
+        .texels("rectangle", Element::Struct(LightRectangle::INFO))
+        .sized(|s| bytes::<LightRectangle>(s.rectangles()));
     /// Whether each cluster of the grid is visible, a bit a cluster.
     ClusterBits = buffer("cluster_bits", Owner::Clustering)
         .storage("uint cluster_bits[]")
@@ -102,6 +110,19 @@ buffers! {
     ClusterPlaces = buffer("cluster_places", Owner::Clustering)
         .storage("uint cluster_places[]")
         .sized(|s| bytes::<u32>(s.cluster_places()))
+        .serving(Purpose::Grouping);
+    /// How many clusters of each tile are visible, where the samples of tiles are sorted.
+    TileCounts = buffer("tile_counts", Owner::Clustering)
+        .storage("uint tile_counts[]")
+        .sized(|s| bytes::<u32>(s.sorted_tiles()));
+    /// The slices of the visible clusters of each tile, ascending; each tile has room for all of its slices.
+    TileSlices = buffer("tile_slices", Owner::Clustering)
+        .storage("uint tile_slices[]")
+        .sized(|s| bytes::<u32>(s.sorted_slices()));
+    /// Where the visible clusters of each tile begin among all, and where the last end, where the samples of tiles are sorted.
+    TileOffsets = buffer("tile_offsets", Owner::Clustering)
+        .storage("uint tile_offsets[]")
+        .sized(|s| bytes::<u32>(s.tile_offsets()))
         .serving(Purpose::Grouping);
     /// Linear indices of the visible clusters; ascending where ranks are their places.
     VisibleClusters = buffer("visible_clusters", Owner::Clustering)

@@ -5,8 +5,8 @@ mod structs;
 
 pub use structs::{
     Candidate, ClusterBox, ClusterGroup, ClusteringState, DispatchSize, DrawCommand, DrawCounts, GridData,
-    HashData, InstanceData, LightData, LightNode, LightVolume, MaterialData, ModelBox, OctreeData,
-    OctreeLayer, PixelData, Push, ViewData,
+    HashData, InstanceData, LightData, LightNode, LightRectangle, LightVolume, MaterialData, ModelBox,
+    OctreeData, OctreeLayer, PixelData, Push, ViewData,
 };
 
 use crate::geometry::VolumeKind;
@@ -49,6 +49,14 @@ const BLOCK_EXTREMES: u32 = (4 * BLOCK_COLUMNS * BLOCK_COLUMNS - 1) / 3;
 pub const BLOCK_WORDS: u32 = BLOCK_EXTREMES + 6;
 /// Groups of clusters that one thread takes a candidate to.
 pub const GROUP_CHUNK: u32 = 16;
+/// Threads that share the cells which a light is seen in.
+pub const RECTANGLE_SPLIT: u32 = 16;
+/// Cells that a thread takes a light to in one turn.
+pub const RECTANGLE_CHUNK: u32 = 16;
+/// Threads of a workgroup that sorts the samples of a tile.
+pub const SORT_TILE_WORKGROUP: u32 = 128;
+/// Slices of a grid whose tiles are sorted, at most.
+pub const SORT_TILE_SLICES: u32 = 2048;
 /// Threads of a cluster, among which the hierarchy's subtrees are dealt out.
 pub const TREE_SPLIT: u32 = 8;
 /// Index of the dispatch size with a thread a list.
@@ -93,7 +101,7 @@ pub const MEASUREMENT_WORDS: u64 = 4096;
 /// How many 64-bit counters the atemporal run has: as many as [`DeviceCounts`] has fields.
 pub const COUNTER_COUNT: usize = DeviceCounts::NAMES.len();
 
-const CONSTANTS: [(&str, u32); 32] = [
+const CONSTANTS: [(&str, u32); 36] = [
     ("SET_BUFFERS", SET_BUFFERS),
     ("SET_MATERIAL", SET_MATERIAL),
     ("SET_TARGETS", SET_TARGETS),
@@ -108,6 +116,10 @@ const CONSTANTS: [(&str, u32); 32] = [
     ("BLOCK_COLUMNS", BLOCK_COLUMNS),
     ("BLOCK_EXTREMES", BLOCK_EXTREMES),
     ("GROUP_CHUNK", GROUP_CHUNK),
+    ("RECTANGLE_SPLIT", RECTANGLE_SPLIT),
+    ("RECTANGLE_CHUNK", RECTANGLE_CHUNK),
+    ("SORT_TILE_WORKGROUP", SORT_TILE_WORKGROUP),
+    ("SORT_TILE_SLICES", SORT_TILE_SLICES),
     ("TREE_SPLIT", TREE_SPLIT),
     ("DISPATCH_LISTS", DISPATCH_LISTS),
     ("DISPATCH_MASKED", DISPATCH_MASKED),
@@ -138,7 +150,7 @@ const TEXTURE_SLOTS: [(&str, TextureSlot); 5] = [
 ];
 
 /// Every shared struct; one comes after those it contains.
-const STRUCTS: [StructInfo; 20] = [
+const STRUCTS: [StructInfo; 21] = [
     ViewData::INFO,
     GridData::INFO,
     HashData::INFO,
@@ -147,6 +159,7 @@ const STRUCTS: [StructInfo; 20] = [
     ClusterBox::INFO,
     LightNode::INFO,
     LightVolume::INFO,
+    LightRectangle::INFO,
     LightData::INFO,
     MaterialData::INFO,
     InstanceData::INFO,
@@ -164,8 +177,8 @@ const STRUCTS: [StructInfo; 20] = [
 /// Names of what shader variants choose among; the value is the position.
 const VARIANT_NAMES: [&[&str]; 11] = [
     &["SPACE_PERSPECTIVE", "SPACE_ORTHOGRAPHIC", "SPACE_MODEL"],
-    &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS", "SCAN_DIGITS", "SCAN_GROUPS"],
-    &["ASSIGN_BRUTE", "ASSIGN_HIERARCHY", "ASSIGN_SCATTER"],
+    &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS", "SCAN_DIGITS", "SCAN_GROUPS", "SCAN_TILES"],
+    &["ASSIGN_BRUTE", "ASSIGN_HIERARCHY", "ASSIGN_SCATTER", "ASSIGN_RECTANGLES"],
     &["CLUSTERS_VISIBLE", "CLUSTERS_ALL"],
     &[
         "SLICES_GEOMETRIC",
@@ -176,7 +189,7 @@ const VARIANT_NAMES: [&[&str]; 11] = [
         "SLICES_UNIFORM_VIEW",
     ],
     &["LISTS_OFFSETS", "LISTS_FIXED", "LISTS_CAPPED"],
-    &["COMPACTION_RANKS", "COMPACTION_ATOMIC"],
+    &["COMPACTION_RANKS", "COMPACTION_ATOMIC", "COMPACTION_SORT"],
     &["CULLING_CPU", "CULLING_GPU"],
     &["BOUNDS_CELL", "BOUNDS_DEPTH", "BOUNDS_BOX"],
     &["VISIT_MARK", "VISIT_COUNT", "VISIT_BOUNDS"],

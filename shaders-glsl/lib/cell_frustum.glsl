@@ -12,7 +12,7 @@ struct CellBounds {
     // Those of the cell in which the samples lie.
     vec2 outer_left, outer_right, outer_bottom, outer_top;
 #endif
-#if TEST_SAT_E || TEST_SAT_N || TEST_SAT_P || TEST_SAT_V || TEST_NEAREST
+#if TEST_SAT_E || TEST_SAT_N || TEST_SAT_P || TEST_SAT_V || TEST_NEAREST || TEST_MM
     // Tangents of left and bottom, right and top.
     vec2 low, high;
 #endif
@@ -34,18 +34,24 @@ CellBounds frustum_piece(vec2 low, vec2 high, vec2 ends)
     bounds.top = -normalize(vec2(1.0, high.y));
     bounds.z_near = ends.x;
     bounds.z_far = ends.y;
-#if TEST_SAT_E || TEST_SAT_N || TEST_SAT_P || TEST_SAT_V || TEST_NEAREST
+#if TEST_SAT_E || TEST_SAT_N || TEST_SAT_P || TEST_SAT_V || TEST_NEAREST || TEST_MM
     bounds.low = low;
     bounds.high = high;
 #endif
     return bounds;
 }
 
+// Tangents of the left and the lower side of a tile.
+vec2 tile_tangents(uvec2 tile)
+{
+    precise vec2 tangents = grid.origin.xy + grid.cell.xy * vec2(tile);
+    return tangents;
+}
+
 // What cells from one to another fill together.
 CellBounds range_bounds(uvec3 first, uvec3 last)
 {
-    precise vec2 low = grid.origin.xy + grid.cell.xy * vec2(first.xy);
-    precise vec2 high = grid.origin.xy + grid.cell.xy * vec2(last.xy + 1u);
+    vec2 low = tile_tangents(first.xy), high = tile_tangents(last.xy + 1u);
     return frustum_piece(low, high, vec2(slice_depth(first.z), slice_depth(last.z + 1u)));
 }
 
@@ -117,6 +123,17 @@ bool within_planes_grown(CellBounds cell, vec4 sphere, vec3 half_extent)
     vec2 ends = vec2(cell.z_near - sphere.z, sphere.z - cell.z_far) + half_extent.z;
     return min(min(min(sides.x, sides.y), min(sides.z, sides.w)), min(ends.x, ends.y)) >= -sphere.w;
 }
+
+#if TEST_MM
+// Whether the cell meets the rectangle in which a sphere is seen, between its depths. What is no number, of a light beyond all that
+// single precision holds, meets.
+bool meets_seen(CellBounds cell, vec4 sphere, vec4 rectangle)
+{
+    precise vec2 ends = vec2(cell.z_near - sphere.z, sphere.z - cell.z_far);
+    bvec2 below = lessThan(rectangle.zw, cell.low), above = greaterThan(rectangle.xy, cell.high);
+    return !(below.x || below.y || above.x || above.y || min(ends.x, ends.y) < -sphere.w);
+}
+#endif
 
 #if TEST_SAT_P || TEST_SAT_E
 // Rounding of a projection, in parts of the farthest corner's distance.

@@ -4,6 +4,7 @@
 //   TEST_HS       half spaces: the centre lies within the cell's six planes, moved out by the radius
 //   TEST_SAT_*    no separating axis among the edges (E), the planes' normals (P), and the axes from the centre to each
 //                 vertex (V) or to the nearest one (N)
+//   TEST_MM       the rectangle in which the sphere is seen meets the cell's, and its depths those of the cell (Mara and McGuire)
 //   TEST_NEAREST  the nearest point of the cell lies in the sphere: exact
 //   BOXED         of the box around the cell, instead of it (Ortiz): conservative
 //
@@ -11,7 +12,7 @@
 // that separates proves that the two do not meet, so rounding of an axis costs nothing but a false positive; rounding
 // of what is projected to it is covered by the slack of the radii, as that of planes is.
 //
-// What passes half spaces, normals or the nearest point lies within the planes moved out: ranges (lib/cell_range.glsl)
+// What passes half spaces, normals, the rectangle or the nearest point lies within the planes moved out: ranges (lib/cell_range.glsl)
 // and nodes (meets_grown) are cut by these. Nothing so simple bounds the other axes alone (TEST_BOUNDED 0): there,
 // nothing is cut.
 #pragma once
@@ -31,6 +32,9 @@ const float RANGE_ROUNDING = 4e-6;
 #else
 #include "lib/cell_box.glsl"
 #endif
+#if TEST_MM
+#include "lib/projected_sphere.glsl"
+#endif
 #if TEST_SAT_N || TEST_SAT_V
 #include "lib/separating_vertices.glsl"
 #endif
@@ -48,6 +52,9 @@ CellBounds bounds_of_visible(uint visible)
 
 bool sphere_meets(CellBounds cell, vec4 sphere)
 {
+#if TEST_MM
+    return meets_seen(cell, sphere, seen_rectangle(sphere));
+#endif
 #if TEST_HS || TEST_SAT_P
     if (!within_planes(cell, sphere))
         return false;

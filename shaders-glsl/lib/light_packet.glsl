@@ -9,12 +9,28 @@
 #extension GL_EXT_control_flow_attributes : require
 
 shared vec4 packet_spheres[ASSIGN_WORKGROUP];
+#if TEST_MM
+// The rectangles in which they are seen, once for all clusters.
+shared vec4 packet_rectangles[ASSIGN_WORKGROUP];
+#endif
 
 // Puts this thread's light into the packet.
 void fill_packet(LightVolume volume)
 {
     packet_spheres[gl_LocalInvocationID.x] = bounding_sphere(volume);
+#if TEST_MM
+    packet_rectangles[gl_LocalInvocationID.x] = seen_rectangle(bounding_sphere(volume));
+#endif
     barrier();
+}
+
+bool packet_light_meets(CellBounds cell, uint i)
+{
+#if TEST_MM
+    return meets_seen(cell, packet_spheres[i], packet_rectangles[i]);
+#else
+    return sphere_meets(cell, packet_spheres[i]);
+#endif
 }
 
 // What is tested of a thread's visible cluster; beyond all of these, of the last one.
@@ -28,9 +44,9 @@ uvec2 lights_passing(CellBounds cell, uint count)
 {
     uvec2 met = uvec2(0u);
     [[unroll]] for (uint i = 0u; i < 32u; ++i)
-        met.x |= uint(sphere_meets(cell, packet_spheres[i])) << i;
+        met.x |= uint(packet_light_meets(cell, i)) << i;
     [[unroll]] for (uint i = 0u; i < 32u; ++i)
-        met.y |= uint(sphere_meets(cell, packet_spheres[32u + i])) << i;
+        met.y |= uint(packet_light_meets(cell, 32u + i)) << i;
     uint there = min(count, 32u), beyond = max(count, 32u) - 32u;
     return met & uvec2(there == 32u ? 0xFFFFFFFFu : (1u << there) - 1u, beyond == 32u ? 0xFFFFFFFFu : (1u << beyond) - 1u);
 }

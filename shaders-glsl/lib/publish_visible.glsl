@@ -45,6 +45,8 @@ void publish_lists(uint lights, uint visible)
     publish_meeting(DispatchSize(lists.x, (lights + ASSIGN_WORKGROUP - 1u) / ASSIGN_WORKGROUP, 1u), masked);
 #elif ASSIGN == ASSIGN_HIERARCHY
     publish_meeting(DispatchSize(lists.x, TREE_SPLIT, 1u), masked);
+#elif ASSIGN == ASSIGN_RECTANGLES
+    publish_meeting(DispatchSize((lights + ASSIGN_WORKGROUP - 1u) / ASSIGN_WORKGROUP, RECTANGLE_SPLIT, 1u), masked);
 #endif
 }
 
@@ -60,7 +62,7 @@ void publish_visible(uint total)
 #endif
     dispatches[DISPATCH_LISTS] = groups_for(visible, ASSIGN_WORKGROUP);
     dispatches[DISPATCH_SCAN] = groups_for(visible, SCAN_BLOCK);
-#if ASSIGN == ASSIGN_BRUTE
+#if ASSIGN == ASSIGN_BRUTE || ASSIGN == ASSIGN_RECTANGLES
     publish_lists(grid.light_count, visible);
 #endif
 }

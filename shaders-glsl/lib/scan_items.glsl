@@ -19,6 +19,27 @@ void emit(uint word, uint rank)
 
 void publish(uint total) { publish_visible(total); }
 
+#elif SCAN_ITEMS == SCAN_TILES
+
+uint scan_length() { return grid.dimensions.x * grid.dimensions.y; }
+uint scan_item(uint tile) { return tile_counts[tile]; }
+
+// Lists the visible clusters of a tile by ascending slice.
+void emit(uint tile, uint offset)
+{
+    tile_offsets[tile] = offset;
+    uint end = min(offset + tile_counts[tile], grid.visible_capacity);
+    uint slices = tile * grid.dimensions.z;
+    for (uint place = offset; place < end; ++place)
+        visible_clusters[place] = tile + scan_length() * tile_slices[slices + place - offset];
+}
+
+void publish(uint total)
+{
+    tile_offsets[scan_length()] = total;
+    publish_visible(total);
+}
+
 #elif SCAN_ITEMS == SCAN_DIGITS
 
 #include "lib/sort.glsl"

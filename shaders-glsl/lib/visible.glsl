@@ -1,5 +1,5 @@
 // The visible clusters: one bit a cluster while marking; after compaction the place of a cluster among them is its rank, or what
-// a counter gave it. Where all clusters get lists, each is visible, and its place is its index.
+// a counter gave it, or where it stands among those of its tile, which ascend. Where all clusters get lists, each is visible, and its place is its index.
 #pragma once
 
 #include "generated/gpu_interface.glsl"
@@ -14,11 +14,31 @@ void mark_cluster(uint cluster)
         atomicOr(cluster_bits[cluster >> 5], bit);
 }
 
+#if COMPACTION == COMPACTION_SORT
+// Where a cluster stands among those of its tile, or NO_CLUSTER where it holds no sample.
+uint index_in_tile(uint cluster)
+{
+    uint tile = cluster % (grid.dimensions.x * grid.dimensions.y);
+    uint end = min(tile_offsets[tile + 1u], grid.visible_capacity);
+    uint low = tile_offsets[tile], high = end;
+    while (low < high) {
+        uint middle = (low + high) / 2u;
+        if (visible_clusters[middle] < cluster)
+            low = middle + 1u;
+        else
+            high = middle;
+    }
+    return low < end && visible_clusters[low] == cluster ? low : NO_CLUSTER;
+}
+#endif
+
 // Index of a cluster among the visible ones, or NO_CLUSTER where it is not marked or did not fit.
 uint visible_index(uint cluster)
 {
 #if CLUSTERS == CLUSTERS_ALL
     return cluster < grid.visible_capacity ? cluster : NO_CLUSTER;
+#elif COMPACTION == COMPACTION_SORT
+    return index_in_tile(cluster);
 #else
     uint word = cluster_bits[cluster >> 5];
     uint bit = 1u << (cluster & 31u);

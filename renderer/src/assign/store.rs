@@ -79,6 +79,8 @@ pub enum Compaction {
     Ranks,
     /// By an atomic counter, a thread a cluster, in an order that differs from run to run (Enhuber section 3.2, Ortiz).
     Atomic,
+    /// By sorting the samples of each tile by their slices: tile by tile, in the order of slices (Tegelaers section 6.2).
+    Sort,
 }
 
 impl fmt::Display for Compaction {
@@ -86,6 +88,7 @@ impl fmt::Display for Compaction {
         f.write_str(match self {
             Self::Ranks => "ranks",
             Self::Atomic => "atomic",
+            Self::Sort => "sort",
         })
     }
 }

@@ -64,6 +64,7 @@ impl ClusteringSizes {
         let [x, y, z] = counts.dimensions.map(u64::from);
         Self {
             clusters: x * y * z,
+            tiles: x * y,
             slice_planes: self.slice_planes.min(entries(z + 1)),
             capacities: Capacities {
                 visible_clusters: entries(counts.visible_clusters),
@@ -86,6 +87,7 @@ mod tests {
 
     const SIZES: ClusteringSizes = ClusteringSizes {
         clusters: 4096,
+        tiles: 256,
         listed: Clusters::Visible,
         bounds: ClusterBounds::Box,
         boxed: false,

@@ -12,6 +12,8 @@ use crate::{Error, Result};
 pub struct ClusteringSizes {
     /// Clusters of the grid (largest of all frames); 0 for a method without clusters.
     pub clusters: u64,
+    /// Tiles of the grid: its clusters along x times those along y (most of all frames).
+    pub tiles: u64,
     /// Which clusters get lists.
     pub listed: Clusters,
     /// What is kept of a cluster to be tested against lights.
@@ -56,8 +58,31 @@ impl ClusteringSizes {
     pub(super) fn ranked_words(&self) -> u64 {
         match self.compaction {
             Compaction::Ranks => self.words(),
-            Compaction::Atomic => 0,
+            Compaction::Atomic | Compaction::Sort => 0,
         }
+    }
+
+    /// Tiles whose samples are sorted.
+    pub(super) fn sorted_tiles(&self) -> u64 {
+        match (self.listed, self.compaction) {
+            (Clusters::Visible, Compaction::Sort) => self.tiles,
+            _ => 0,
+        }
+    }
+
+    /// Slices of all those tiles.
+    pub(super) fn sorted_slices(&self) -> u64 {
+        if self.sorted_tiles() > 0 { self.clusters } else { 0 }
+    }
+
+    /// Where the clusters of each of those tiles begin, and where the last end.
+    pub(super) fn tile_offsets(&self) -> u64 {
+        if self.sorted_tiles() > 0 { self.sorted_tiles() + 1 } else { 0 }
+    }
+
+    /// Lights whose cells are kept, to be handed to these.
+    pub(super) fn rectangles(&self) -> u64 {
+        if self.assigner == Assigner::Rectangles { self.lights.into() } else { 0 }
     }
 
     /// Clusters of which each has its place where it is visible.
@@ -136,7 +161,7 @@ impl ClusteringSizes {
 
     /// `size` where lights are culled before they are assigned, else nothing.
     pub(super) fn for_culled_lights(&self, size: u64) -> u64 {
-        if self.assigner == Assigner::Brute { 0 } else { size }
+        if self.assigner.culls_lights() { size } else { 0 }
     }
 
     /// Words of a bit for each light that may be a candidate, and for each block of lights how many it has.
@@ -185,10 +210,11 @@ impl ClusteringSizes {
         self.scan_items().div_ceil(u64::from(SCAN_BLOCK))
     }
 
-    /// Items of the longest prefix sum: of words, of lists, of the digits of the sort, of scatter's groups.
+    /// Items of the longest prefix sum: of words, of tiles, of lists, of the digits of the sort, of scatter's groups.
     fn scan_items(&self) -> u64 {
         let lists = if self.lists.has_offsets() { self.visible() } else { 0 };
-        self.ranked_words().max(lists).max(self.digit_counts()).max(self.groups())
+        let clusters = self.ranked_words().max(self.sorted_tiles());
+        clusters.max(lists).max(self.digit_counts()).max(self.groups())
     }
 
     /// What the buffers of a clustering take, bytes, where so many frames are in flight.
@@ -284,6 +310,7 @@ mod tests {
         let assigner = Assigner::Scatter;
         ClusteringSizes {
             clusters: 1 << 20,
+            tiles: 1 << 14,
             listed: Clusters::Visible,
             bounds: ClusterBounds::Cell,
             boxed: false,

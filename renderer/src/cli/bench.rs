@@ -43,7 +43,7 @@ pub struct Args {
     #[arg(long = "frame", value_name = "LIST", value_delimiter = ',', default_value = "300,580")]
     frames: Vec<u32>,
 
-    /// Ways of assignment, with commas between: brute, hierarchy, scatter.
+    /// Ways of assignment, with commas between: brute, hierarchy, scatter, rectangles (for the test mm alone).
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "brute,hierarchy,scatter")]
     assign: Vec<Assign>,
 

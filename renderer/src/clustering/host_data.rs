@@ -22,6 +22,9 @@ pub const SLACK_PER_METRE_BEYOND: f64 = 2.4e-6;
 /// Corners of views up to so many reaches from the apex: those of a headset are at 2.27.
 const WIDE: f64 = 2.0;
 
+/// Depth on the near plane may round to less, but not to less than this part.
+const NEAR: f64 = 1.0 - 1e-5;
+
 /// What rounding may cost in a grid whose planes are up to `reach` metres from its apex, metres. `grid` is relative to the
 /// frame's `origin`, `views`, which look lights up in it, are in the world.
 fn slack(grid: &Grid, views: &[View], origin: DVec3, reach: f64) -> f32 {
@@ -55,14 +58,14 @@ pub fn grid_data(
     sizes: &ClusteringSizes,
 ) -> GridData {
     let dimensions = DVec3::from_array(grid.dimensions.map(f64::from));
-    let (lowest, cell, slice_bias, reach) = match grid.space {
+    let (lowest, cell, [slice_bias, near], reach) = match grid.space {
         ClusterSpace::Perspective { frustum: f, slices } => {
             let [origin, step] = slices.on_device();
             let cell = DVec3::new((f.x1 - f.x0) / dimensions.x, (f.y1 - f.y0) / dimensions.y, step);
-            (DVec3::new(f.x0, f.y0, origin), cell, slices.bias() as f32, -f.z0)
+            (DVec3::new(f.x0, f.y0, origin), cell, [slices.bias(), f.near() * NEAR], -f.z0)
         }
         ClusterSpace::Orthographic { min, max } => {
-            (min, (max - min) / dimensions, 0.0, min.abs().max(max.abs()).max_element())
+            (min, (max - min) / dimensions, [0.0; 2], min.abs().max(max.abs()).max_element())
         }
     };
     let (low, high) = grid.bounds();
@@ -73,7 +76,8 @@ pub fn grid_data(
         origin: lowest.as_vec3().to_array(),
         scale: (1.0 / cell).as_vec3().to_array(),
         cell: cell.as_vec3().to_array(),
-        slice_bias,
+        slice_bias: slice_bias as f32,
+        near: near as f32,
         slack: slack(grid, views, origin, reach),
         slack_per_radius: SLACK_PER_METRE,
         light_count: lights,

@@ -35,14 +35,8 @@ pub trait Own: Copy {
 }
 
 impl Own for SphereTest {
-    /// The thesis's own: half spaces in perspective grids, the box in orthographic ones; that of models is exact, and cells that
-    /// can be tested as boxes are.
     fn own(method: &Method) -> Self {
-        match method.kind().cells() {
-            Some(CellShape::Model) => Self::Exact,
-            Some(CellShape::Box | CellShape::BoxedFrustum) => Self::Box,
-            Some(CellShape::Frustum) | None => Self::HALF_SPACES,
-        }
+        method.own_test()
     }
 }
 
@@ -67,8 +61,8 @@ impl Own for Bounds {
 }
 
 impl Own for SliceLaw {
-    fn own(_: &Method) -> Self {
-        Self::Geometric
+    fn own(method: &Method) -> Self {
+        method.own_slices()
     }
 
     fn applies(method: &Method) -> bool {
@@ -102,6 +96,11 @@ fn has_boxes(method: &Method) -> bool {
     matches!(method.kind().cells(), Some(CellShape::Box | CellShape::BoxedFrustum))
 }
 
+/// Whether the method's clusters are pieces of a frustum, seen from its apex as rectangles.
+fn has_rectangles(method: &Method) -> bool {
+    matches!(method.kind().cells(), None | Some(CellShape::Frustum | CellShape::BoxedFrustum))
+}
+
 /// Whether the method's groups are models.
 fn has_models(method: &Method) -> bool {
     method.kind().cells() == Some(CellShape::Model)
@@ -117,6 +116,7 @@ impl Config {
         self.check_compaction()?;
         self.check_lists()?;
         self.check_samples()?;
+        self.check_assign()?;
         match (self.methods.first(), self.test.first()) {
             (Some(method), Some(Test::Named(test))) if has_models(method) && *test != SphereTest::Exact => {
                 Err(format!(
@@ -127,6 +127,12 @@ impl Config {
             (Some(method), Some(Test::Named(SphereTest::Box))) if !has_boxes(method) => Err(format!(
                 "test: the clusters of {method} are no boxes: test them with `exact`, or exclude the run"
             )),
+            (Some(method), Some(Test::Named(SphereTest::Projected))) if !has_rectangles(method) => {
+                Err(format!(
+                    "test: the clusters of {method} are no pieces of a frustum, whose rectangles `mm` asks: use `exact`, or exclude \
+                 the run"
+                ))
+            }
             _ => Ok(()),
         }
     }
@@ -151,6 +157,23 @@ impl Config {
         ))
     }
 
+    /// A way of assignment that finds lights by one test needs it.
+    fn check_assign(&self) -> Result<(), String> {
+        let with_lists = self.methods.first().filter(|method| method.has_lists());
+        let (Some(method), Some(assigner)) = (with_lists, self.assign.first().and_then(|way| way.fixed()))
+        else {
+            return Ok(());
+        };
+        let test = self.test[0].of(method);
+        if assigner.serves(test) {
+            return Ok(());
+        }
+        Err(format!(
+            "assign: {assigner} take lights to the tiles in which they are seen, as the test `mm` does, and {method} tests by `{test}`: \
+             use --test mm, or exclude the run"
+        ))
+    }
+
     fn check_lists(&self) -> Result<(), String> {
         let brute =
             self.assign.first() == Some(&Assign::Brute) && self.methods.first().is_some_and(Method::assigns);
@@ -162,17 +185,44 @@ impl Config {
 
     fn check_compaction(&self) -> Result<(), String> {
         let marks = |method: &&Method| <Clusters as Own>::applies(method);
-        let (Some(method), Some(Compaction::Atomic)) =
-            (self.methods.first().filter(marks), self.compaction.first())
+        let (Some(method), Some(&compaction)) = (self.methods.first().filter(marks), self.compaction.first())
         else {
             return Ok(());
         };
-        if self.clusters.first().is_some_and(|clusters| clusters.of(method) == Clusters::All) {
-            return Err(format!(
+        let all_listed = self.clusters.first().is_some_and(|clusters| clusters.of(method) == Clusters::All);
+        match compaction {
+            Compaction::Ranks => Ok(()),
+            Compaction::Atomic | Compaction::Sort if all_listed => Err(format!(
                 "compaction: all clusters of {method} have lists, at places that nothing has to find: use ranks, or exclude \
                  the run"
-            ));
+            )),
+            Compaction::Atomic => self.check_counter(),
+            Compaction::Sort => self.check_sort(method),
         }
+    }
+
+    /// Samples are sorted where whole pixels of a view are its tiles.
+    fn check_sort(&self, method: &Method) -> Result<(), String> {
+        if self.marking == Marking::Geometry {
+            return Err(
+                "compaction: sort takes visible clusters from the depth of samples: use --marking depth, or ranks".into()
+            );
+        }
+        match method.tile_pixels(self.resolution) {
+            Some(pixels) if pixels.fract() == 0.0 => Ok(()),
+            Some(pixels) => Err(format!(
+                "compaction: sort takes tiles of whole pixels, and those of {method} have {pixels}: use a whole size, or exclude the \
+                 run"
+            )),
+            None => Err(format!(
+                "compaction: sort goes through the tiles of a view's screen, and the clusters of {method} do not lie in such: use \
+                 ranks, or exclude the run"
+            )),
+        }
+    }
+
+    /// A counter leaves clusters in any order.
+    fn check_counter(&self) -> Result<(), String> {
         match self.assign.first() {
             Some(way @ (Assign::Scatter | Assign::Auto)) => Err(format!(
                 "compaction: atomic leaves no neighbours together, whose groups `{way}` takes lights to: use --assign brute or \
@@ -212,6 +262,7 @@ impl fmt::Display for Assign {
             Self::Brute => "brute",
             Self::Hierarchy => "hierarchy",
             Self::Scatter => "scatter",
+            Self::Rectangles => "rectangles",
             Self::Auto => "auto",
         })
     }
@@ -326,12 +377,72 @@ mod tests {
     }
 
     #[test]
+    fn samples_are_sorted_in_tiles_of_whole_pixels() {
+        let refused = |method: &str, marking| {
+            let config =
+                Config { marking, compaction: vec![Compaction::Sort], ..config(&[method], &["auto"]) };
+            config.cases()[0].check_case().err()
+        };
+        let by_depth = |method| refused(method, Marking::Depth);
+        for method in [
+            "clustered-mm-32",
+            "indi-persp-64",
+            "tiled-16",
+            "sc-e-48-40",
+            "ortiz-16-9-24",
+            "g-20",
+            "all-lights",
+        ] {
+            assert_eq!(by_depth(method), None, "{method}");
+        }
+        for (method, told) in [
+            ("encl-persp-64", "do not lie in such"),
+            ("indi-ortho-4", "do not lie in such"),
+            ("indi-displ-64-32", "do not lie in such"),
+            ("clustered-mm-12.5", "have 12.5"),
+            ("tiled-mm-32", "all clusters of tiled-mm-32"),
+        ] {
+            let message = by_depth(method).unwrap();
+            assert!(message.contains(told), "{message}");
+        }
+        assert!(refused("clustered-mm-32", Marking::Geometry).unwrap().contains("use --marking depth"));
+    }
+
+    #[test]
+    fn rectangles_ask_for_their_test() {
+        let refused = |method: &str, test: &str| {
+            let config = Config { assign: vec![Assign::Rectangles], ..config(&[method], &[test]) };
+            config.cases()[0].check_case().err()
+        };
+        for (method, test) in [
+            ("tiled-mm-32", "auto"),
+            ("clustered-mm-32", "mm"),
+            ("encl-persp-64", "mm"),
+            ("all-lights", "auto"),
+        ] {
+            assert_eq!(refused(method, test), None, "{method} {test}");
+        }
+        for (method, test) in [("t-i-28", "auto"), ("tiled-mm-32", "exact"), ("g-20", "auto"), ("m", "auto")]
+        {
+            let message = refused(method, test).unwrap();
+            assert!(message.contains("use --test mm"), "{message}");
+        }
+    }
+
+    #[test]
     fn boxes_serve_boxes_alone() {
         let refused = |method: &str| config(&[method], &["box"]).cases()[0].check_case().err();
         assert_eq!(refused("encl-ortho-4"), None);
         assert_eq!(refused("all-lights"), None);
         assert!(refused("encl-persp-64").unwrap().contains("encl-persp-64 are no boxes"));
         assert!(refused("indi-displ-64-32").is_some());
+        let seen = |method: &str| config(&[method], &["mm"]).cases()[0].check_case().err();
+        for method in ["indi-persp-64", "encl-displ-64-32", "ortiz-16-9-24", "t-e-28", "all-lights"] {
+            assert_eq!(seen(method), None);
+        }
+        for method in ["encl-ortho-4", "g-20"] {
+            assert!(seen(method).unwrap().contains("no pieces of a frustum"));
+        }
         assert_eq!(refused("g-20"), None);
         assert_eq!(refused("ortiz-16-9-24"), None);
         assert_eq!(ways(&config(&["ortiz-16-9-24"], &["auto"])), ["ortiz-16-9-24 brute box"]);

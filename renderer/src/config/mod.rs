@@ -47,6 +47,8 @@ pub enum Assign {
     Hierarchy,
     /// Every light to the groups of visible clusters that its cells meet.
     Scatter,
+    /// Every light to the visible clusters of the tiles in which it is seen; with the test `mm` alone.
+    Rectangles,
     /// What is likely fastest, by counts taken before the run.
     Auto,
 }
@@ -58,6 +60,7 @@ impl Assign {
             Self::Brute => Some(Assigner::Brute),
             Self::Hierarchy => Some(Assigner::Hierarchy),
             Self::Scatter => Some(Assigner::Scatter),
+            Self::Rectangles => Some(Assigner::Rectangles),
             Self::Auto => None,
         }
     }
@@ -69,6 +72,7 @@ impl From<Assigner> for Assign {
             Assigner::Brute => Self::Brute,
             Assigner::Hierarchy => Self::Hierarchy,
             Assigner::Scatter => Self::Scatter,
+            Assigner::Rectangles => Self::Rectangles,
         }
     }
 }

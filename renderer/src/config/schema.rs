@@ -163,8 +163,8 @@ fn names_of<T: ToString>(values: &[T]) -> Schema {
 pub(super) fn test(_: &mut SchemaGenerator) -> Schema {
     one_or_several(&json_schema!({
         "type": "string",
-        "pattern": r"^(auto|box|exact|hs|(hs\+)?sat-[enpv]{1,4})$",
-        "examples": ["auto", "hs", "hs+sat-n", "hs+sat-epv", "exact", "box"]
+        "pattern": r"^(auto|box|exact|mm|hs|(hs\+)?sat-[enpv]{1,4})$",
+        "examples": ["auto", "hs", "hs+sat-n", "hs+sat-epv", "exact", "mm", "box"]
     }))
 }
 

@@ -241,7 +241,8 @@ settings! {
     }
     /// Where the slices of perspective grids begin: `geometric`, `cubes` (about as deep as a tile is high; their number follows),
     /// `second-plane-METRES` (the first ends there, the others are geometric), `linear` (from the eye), `uniform-ndc` (in projected
-    /// depth), `uniform-view` (from the near plane), or `auto`: geometric. Of several, with commas between, each is a run of
+    /// depth), `uniform-view` (from the near plane), or `auto`: what the method's name
+    /// says, geometric for most. Of several, with commas between, each is a run of
     /// every method.
     slices: Vec<Choice<SliceLaw>> = vec![Choice::Auto], Run {
         arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::choice::<SliceLaw>)
@@ -260,8 +261,9 @@ settings! {
         write(serialize_with = "ser::one_or_several")
         check(values::check_ways)
     }
-    /// How visible clusters get their places among the lists: `ranks` (by a prefix sum, in the order of the grid) or `atomic` (by
-    /// a counter, in any order; by brute force and hierarchy alone). Of several, with commas between, each is a run of every method.
+    /// How visible clusters get their places among the lists: `ranks` (by a prefix sum, in the order of the grid), `atomic` (by
+    /// a counter, in any order; by brute force and hierarchy alone), or `sort` (by sorting the samples of each tile of a view's
+    /// screen, tile by tile). Of several, with commas between, each is a run of every method.
     compaction: Vec<Compaction> = vec![Compaction::Ranks], Run {
         arg(long, value_enum, value_name = "LIST", value_delimiter = ',')
         serde(default, deserialize_with = "de::ways")
@@ -289,9 +291,9 @@ settings! {
         check(values::check_ways)
     }
     /// What decides whether a light meets a cluster: `hs` (half spaces), `sat-` with letters (no separating axis among
-    /// e: edges, n: to the nearest vertex, p: normals, v: to all vertices), `hs+sat-n` and the like, `exact`, `box`
-    /// (orthographic clusters and ortiz), or `auto`: hs in perspective grids, box where it serves, exact for models, which take
-    /// no other. Of several, with commas between, each is a run of every method.
+    /// e: edges, n: to the nearest vertex, p: normals, v: to all vertices), `hs+sat-n` and the like, `exact`, `mm` (the rectangle in
+    /// which the light is seen; perspective clusters), `box` (orthographic clusters and ortiz), or `auto`: what the method's name
+    /// says, hs in perspective grids for most, box where it serves, exact for models, which take no other. Of several, with commas between, each is a run of every method.
     test: Vec<Test> = vec![Test::Auto], Run {
         arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::choice::<SphereTest>)
         serde(default, deserialize_with = "de::ways")

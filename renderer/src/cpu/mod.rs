@@ -15,6 +15,8 @@
 //! ```text
 //! visible clusters ─mark_blocks─> blocks ─cull_lights─> candidates ─┬─keys, sorted, build_nodes─> tree ─descend─> lists
 //!                                                                   └─scatter_groups─> groups ─scatter─> lists
+//! lights ─light_rectangles─> cells in which each is seen ─rectangles─> lists
+//! visible clusters ─sort_tiles─> tile by tile
 //! bits ─read_masks─> lists      lists in any order ─sort_lists─> lists      lists ─cap_list─> capped ones
 //! ```
 //!
@@ -31,10 +33,12 @@ mod cull;
 mod cull_lights;
 mod depth_steps;
 mod hierarchy;
+mod light_rectangles;
 mod lists;
 mod mark;
 mod scan;
 mod scatter;
+mod sort_tiles;
 
 pub use assign::{LightLists, assign, assign_measured};
 pub use attenuation::attenuation;
@@ -46,10 +50,12 @@ pub use cull::{Seen, cull};
 pub use cull_lights::{Blocks, Candidate, CellRange, CulledLights, cull_lights, mark_blocks};
 pub use depth_steps::{depth_steps, log2_parts};
 pub use hierarchy::{Descent, Key, Node, Tree, build_nodes, descend, keys, sorted};
+pub use light_rectangles::{light_rectangles, rectangles};
 pub use lists::{FoundLists, cap_list, read_masks, sort_lists};
 pub use mark::{DepthImage, Marks, mark};
 pub use scan::scan;
 pub use scatter::{ClusterGroup, scatter, scatter_groups};
+pub use sort_tiles::{TileClusters, sort_tiles};
 
 use crate::geometry::Grid;
 

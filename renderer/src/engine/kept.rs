@@ -82,6 +82,7 @@ mod tests {
     fn sizes(lists: ListStore) -> ClusteringSizes {
         ClusteringSizes {
             clusters: 10,
+            tiles: 10,
             listed: Clusters::Visible,
             bounds: ClusterBounds::Cell,
             boxed: false,

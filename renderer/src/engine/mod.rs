@@ -104,6 +104,8 @@ impl Engine {
         let chosen = Chosen::of(run, &mode);
         chosen.check(session.scene.models(), mode.lights)?;
         let largest = chosen.largest(largest, session.scene.models());
+        let limits = &session.context.limits;
+        chosen.check_grid(largest, run.msaa, limits.max_compute_shared_memory)?;
         let sizes = chosen.sizes(run, largest, &mode);
         sizes.check(&session.context.limits)?;
         let light_bytes = (u64::from(mode.lights) * size_of::<LightData>() as u64).max(16);
@@ -158,7 +160,9 @@ impl Engine {
         let chosen = Chosen::of(run, mode);
         chosen.check(session.scene.models(), mode.lights)?;
         let largest = chosen.largest(largest, session.scene.models());
-        chosen.sizes(run, largest, mode).check(&session.context.limits)?;
+        let limits = &session.context.limits;
+        chosen.check_grid(largest, run.msaa, limits.max_compute_shared_memory)?;
+        chosen.sizes(run, largest, mode).check(limits)?;
         session.store.pipelines(&chosen.variant(run, mode)).map(drop)
     }
 

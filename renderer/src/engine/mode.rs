@@ -1,7 +1,10 @@
 //! What an engine is made for, and what follows from it: shader variants and buffer sizes.
 
 use super::FramePlan;
-use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction, ListStore, check_one_pass};
+use crate::assign::{
+    Assigner, ClusterBounds, Clusters, Compaction, ListStore, check_one_pass, check_rectangles,
+    check_sorted_slices, check_sorted_tiles,
+};
 use crate::buffers::ClusteringSizes;
 use crate::config::Config;
 use crate::geometry::{SliceLaw, SphereTest};
@@ -16,6 +19,8 @@ use crate::{Error, Result, geometry::Grid};
 pub struct LargestGrid {
     /// Most clusters of a grid.
     pub clusters: u64,
+    /// Most tiles of a grid: clusters along x times those along y.
+    pub tiles: u64,
     /// Most depths between slices of a grid.
     pub slice_planes: u32,
 }
@@ -25,6 +30,7 @@ impl LargestGrid {
     pub fn of(plans: &[FramePlan]) -> Self {
         let largest = |all: Self, grid: &Grid| Self {
             clusters: all.clusters.max(grid.cluster_count()),
+            tiles: all.tiles.max(grid.dimensions[..2].iter().map(|&count| u64::from(count)).product()),
             slice_planes: all.slice_planes.max(grid.dimensions[2] + 1),
         };
         plans.iter().flat_map(|plan| &plan.grids).fold(Self::default(), largest)
@@ -35,16 +41,17 @@ impl LargestGrid {
     /// # Errors
     /// Says how large it is, and how large it may be.
     pub fn check(&self, plan: &FramePlan) -> Result<()> {
-        let Self { clusters, slice_planes } = Self::of(std::slice::from_ref(plan));
-        if clusters <= self.clusters && slice_planes <= self.slice_planes {
+        let Self { clusters, tiles, slice_planes } = Self::of(std::slice::from_ref(plan));
+        if clusters <= self.clusters && tiles <= self.tiles && slice_planes <= self.slice_planes {
             return Ok(());
         }
         Err(Error::Input(format!(
-            "frame {} needs a grid of {clusters} clusters in {} slices, more than the {} in {} that buffers were made for: \
-             use larger clusters, or plan this frame too",
+            "frame {} needs a grid of {clusters} clusters, {tiles} tiles in {} slices, more than the {}, {} in {} that buffers were made \
+             for: use larger clusters, or plan this frame too",
             plan.frame,
             slice_planes.saturating_sub(1),
             self.clusters,
+            self.tiles,
             self.slice_planes.saturating_sub(1),
         )))
     }
@@ -78,6 +85,8 @@ pub(super) struct Chosen {
     pub bounds: ClusterBounds,
     pub compaction: Compaction,
     pub lists: ListStore,
+    /// Side of the tiles that are sorted, pixels; 0 where none are.
+    sorted_tile: u32,
     slices: SliceLaw,
     test: SphereTest,
 }
@@ -88,14 +97,17 @@ impl Chosen {
         let method = run.methods[0];
         let assigns = method.assigns();
         let clusters = method.listed(run.clusters[0].of(&method));
+        let compaction = match clusters {
+            Clusters::Visible => run.compaction[0],
+            Clusters::All => Compaction::Ranks,
+        };
+        let sorted = method.tile_pixels(run.resolution).filter(|_| compaction == Compaction::Sort);
         Self {
             method,
             assigner: if assigns { mode.assigner } else { Assigner::Brute },
             clusters,
-            compaction: match clusters {
-                Clusters::Visible => run.compaction[0],
-                Clusters::All => Compaction::Ranks,
-            },
+            compaction,
+            sorted_tile: sorted.map_or(0, |pixels| pixels as u32),
             lists: if assigns { run.lists[0] } else { ListStore::Offsets },
             bounds: method.kept_bounds(run.bounds[0].of(&method)),
             slices: run.slices[0].of(&method),
@@ -107,6 +119,22 @@ impl Chosen {
     pub fn largest(&self, planned: LargestGrid, models: u32) -> LargestGrid {
         let clusters = if self.method == Method::Models { models.max(1).into() } else { planned.clusters };
         LargestGrid { clusters, ..planned }
+    }
+
+    /// Refuses a grid, or tiles of `samples` a pixel, that compaction by sorting or rectangles do not serve on a device with so many
+    /// bytes of memory a workgroup.
+    ///
+    /// # Errors
+    /// Says what there is, and what there may be.
+    pub fn check_grid(&self, largest: LargestGrid, samples: u32, shared: u32) -> Result<()> {
+        if self.assigner == Assigner::Rectangles {
+            check_rectangles(largest.clusters).map_err(Error::Input)?;
+        }
+        if self.sorted_tile > 0 {
+            check_sorted_slices(largest.slice_planes.saturating_sub(1)).map_err(Error::Input)?;
+            check_sorted_tiles(self.sorted_tile, samples, shared).map_err(Error::Input)?;
+        }
+        Ok(())
     }
 
     /// Refuses more models, or more lights, than the way of assignment serves.
@@ -136,6 +164,7 @@ impl Chosen {
             clusters: self.clusters,
             bounds: self.bounds,
             compaction: self.compaction,
+            sorted_tile: self.sorted_tile,
             lists: self.lists,
             slices: self.slices,
             adds_bias: self.method.adds_bias(),
@@ -156,7 +185,7 @@ impl Chosen {
 
     /// How large its buffers are.
     pub fn sizes(&self, run: &Config, largest: LargestGrid, mode: &Mode) -> ClusteringSizes {
-        let LargestGrid { clusters, slice_planes } = largest;
+        let LargestGrid { clusters, tiles, slice_planes } = largest;
         let kind = self.method.kind();
         let list_entries = match self.lists {
             ListStore::Fixed(entries) => entries.max(mode.capacities.list_entries),
@@ -165,6 +194,7 @@ impl Chosen {
         let capacities = self.method.capacities(clusters, self.clusters, mode.capacities);
         ClusteringSizes {
             clusters,
+            tiles,
             listed: self.clusters,
             bounds: self.bounds,
             boxed: kind.cells().is_some_and(|cells| cells.keeps_boxes(self.test)),
@@ -201,7 +231,7 @@ mod tests {
     #[test]
     fn a_grid_larger_than_planned_is_refused_in_one_line() {
         let largest = LargestGrid::of(&[plan([4, 3, 2]), plan([2, 2, 5])]);
-        assert_eq!(largest, LargestGrid { clusters: 24, slice_planes: 6 });
+        assert_eq!(largest, LargestGrid { clusters: 24, tiles: 12, slice_planes: 6 });
         for fits in [[4, 3, 2], [4, 1, 5], [1, 1, 1]] {
             largest.check(&plan(fits)).unwrap();
         }

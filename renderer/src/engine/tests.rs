@@ -103,6 +103,8 @@ mod cull;
 mod list_stores;
 mod list_twins;
 mod octree;
+mod rectangles;
+mod sort_tiles;
 mod sphere_tests;
 mod targets;
 

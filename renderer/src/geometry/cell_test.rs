@@ -4,6 +4,7 @@
 //! the answer was, so that a comparison with f32 results can leave borderline pairs out.
 
 use super::piece::FrustumPiece;
+use super::projected_sphere::rectangle_margin;
 use super::{ClusterSpace, Frustum, Grid, LightVolume, MeasuredBounds, Separators, SphereTest, VolumeKind};
 use glam::DVec3;
 
@@ -71,6 +72,8 @@ pub struct CellTest {
     edges: [DVec3; 6],
     /// In perspective grids.
     piece: Option<FrustumPiece>,
+    /// Before what depth nothing is seen, metres; of boxes there is none.
+    near: f64,
 }
 
 impl CellTest {
@@ -82,7 +85,7 @@ impl CellTest {
             ClusterSpace::Orthographic { .. } => None,
         };
         let (planes, edges) = (grid.cell_planes(cell), edges(piece.as_ref()));
-        Self { test, planes, outer: None, corners, edges, piece }
+        Self { test, planes, outer: None, corners, edges, piece, near: near(grid) }
     }
 
     /// Prepares what was measured in the cluster `cell` of `grid`; it holds something.
@@ -94,7 +97,7 @@ impl CellTest {
         };
         let (planes, edges) = (bounds.planes(grid), edges(piece.as_ref()));
         let outer = piece.map(|_| grid.cell_planes(cell));
-        Self { test, planes, outer, corners, edges, piece }
+        Self { test, planes, outer, corners, edges, piece, near: near(grid) }
     }
 
     /// Signed margin in metres: at least 0 where the volume meets the cluster, by this test. Its size is how far the
@@ -108,6 +111,7 @@ impl CellTest {
     fn sphere_margin(&self, center: DVec3, radius: f64) -> f64 {
         match (self.test, &self.piece) {
             (SphereTest::Separating(separators), _) => self.unseparated(separators, center, radius),
+            (SphereTest::Projected, _) => self.projection_margin(center, radius),
             (SphereTest::Exact, Some(piece)) => radius - piece.distance(center),
             (SphereTest::Exact, None) | (SphereTest::Box, _) => {
                 let low = self.corners.into_iter().reduce(DVec3::min).unwrap_or(center);
@@ -115,6 +119,12 @@ impl CellTest {
                 radius - center.distance(center.clamp(low, high))
             }
         }
+    }
+
+    /// Least margin of the sides to what is seen of the sphere, and of the ends to its depths.
+    fn projection_margin(&self, center: DVec3, radius: f64) -> f64 {
+        let ends = self.planes[4..].iter().map(|plane| plane.distance(center) + radius);
+        ends.fold(rectangle_margin(&self.planes, self.near, center, radius), f64::min)
     }
 
     /// Least margin of all that might separate.
@@ -175,6 +185,14 @@ impl CellTest {
         let others = corners.iter().filter(|(_, other)| (*other < 0.0) != (margin < 0.0));
         let turn = others.map(|(distance, _)| (distance - nearest) / 2.0).fold(f64::INFINITY, f64::min);
         margin.abs().min(turn).copysign(margin)
+    }
+}
+
+/// Before what depth nothing is seen in a grid, metres.
+fn near(grid: &Grid) -> f64 {
+    match grid.space {
+        ClusterSpace::Perspective { frustum, .. } => frustum.near(),
+        ClusterSpace::Orthographic { .. } => f64::NEG_INFINITY,
     }
 }
 

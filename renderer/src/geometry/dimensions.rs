@@ -51,16 +51,17 @@ pub fn sliced_tiles(
     PerspectiveDimensions { dimensions: DVec3::new(columns, rows, slices), ratio }
 }
 
+/// Side of square tiles of which so many columns fill a screen, pixels: the least whole number.
+pub fn counted_pixels([width, _]: [u32; 2], columns: f64) -> f64 {
+    round_up(f64::from(width) / columns)
+}
+
 /// Square tiles in so many columns, rows and slices (Ortiz, step 1), and their side in pixels: the least whole number with
 /// which the columns fill the screen. A screen higher than the rows has as many as it takes, where his index runs on
 /// into the next slice.
-pub fn counted_tiles(
-    frustum: &Frustum,
-    [width, height]: [u32; 2],
-    counts: DVec3,
-) -> (f64, PerspectiveDimensions) {
-    let pixels = round_up(f64::from(width) / counts.x);
-    let rows = counts.y.max(round_up(f64::from(height) / pixels));
+pub fn counted_tiles(frustum: &Frustum, resolution: [u32; 2], counts: DVec3) -> (f64, PerspectiveDimensions) {
+    let pixels = counted_pixels(resolution, counts.x);
+    let rows = counts.y.max(round_up(f64::from(resolution[1]) / pixels));
     let ratio = (depth_span(frustum) / counts.z).exp_m1();
     (pixels, PerspectiveDimensions { dimensions: DVec3::new(counts.x, rows, counts.z), ratio })
 }

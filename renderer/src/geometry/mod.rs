@@ -16,6 +16,7 @@ mod grid;
 mod measured;
 mod oriented_box;
 mod piece;
+mod projected_sphere;
 mod sharing;
 mod slices;
 mod sphere_test;
@@ -24,8 +25,8 @@ mod volume;
 
 pub use cell_test::{CellTest, Plane, axis_box, half_space};
 pub use dimensions::{
-    PerspectiveDimensions, average_volume, counted_tiles, from_metres, from_pixels, from_volume,
-    side_in_tangents, sliced_tiles,
+    PerspectiveDimensions, average_volume, counted_pixels, counted_tiles, from_metres, from_pixels,
+    from_volume, side_in_tangents, sliced_tiles,
 };
 pub use displaced::{DisplacedVolume, displaced};
 pub use enclosing::{Enclosing, enclosing};
@@ -33,6 +34,7 @@ pub use frustum::Frustum;
 pub use grid::{CellShape, ClusterSpace, Grid, cell_at};
 pub use measured::MeasuredBounds;
 pub use oriented_box::OrientedBox;
+pub use projected_sphere::ProjectedSphere;
 pub use sharing::Sharing;
 pub use slices::{SliceLaw, Slices};
 pub use sphere_test::{Separators, SphereTest};

@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 /// Which test decides whether a sphere meets a cluster.
 ///
-/// Its name is its identity everywhere: `exact`, `box`, or what may separate the two, such as `hs`, `sat-epv`,
+/// Its name is its identity everywhere: `exact`, `box`, `mm`, or what may separate the two, such as `hs`, `sat-epv`,
 /// `hs+sat-n` (Enhuber sections 2.6 and 3.5.2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SphereTest {
@@ -14,6 +14,9 @@ pub enum SphereTest {
     Exact,
     /// They meet where the nearest point of the cluster's axis-aligned bounds lies in the sphere: exact for orthographic grids, conservative otherwise.
     Box,
+    /// They meet where the rectangle in which the sphere is seen meets the cluster's, and its depths those of the cluster (Mara and
+    /// McGuire, Tegelaers section 5.2): conservative; of clusters of perspective grids alone.
+    Projected,
     /// They meet unless something separates them: conservative.
     Separating(Separators),
 }
@@ -58,13 +61,13 @@ impl SphereTest {
         Self::Separating(Separators(Separators::HALF_SPACES.0 | Separators::NEAREST_VERTEX.0));
 
     /// Names to suggest; the axes of `sat` combine freely.
-    const KNOWN: [&str; 7] = ["exact", "box", "hs", "hs+sat-n", "hs+sat-epv", "sat-epv", "auto"];
+    const KNOWN: [&str; 8] = ["exact", "box", "mm", "hs", "hs+sat-n", "hs+sat-epv", "sat-epv", "auto"];
 
     /// Whether what passes lies within the cluster's planes moved out by the radius, so that ranges of cells and boxes
     /// around lights can be cut by them. The edges of `boxes` (orthographic clusters) are their normals.
     pub fn is_bounded(self, boxes: bool) -> bool {
         match self {
-            Self::Exact | Self::Box => true,
+            Self::Exact | Self::Box | Self::Projected => true,
             Self::Separating(asked) => {
                 asked.contain(Separators::HALF_SPACES)
                     || asked.contain(Separators::NORMALS)
@@ -84,6 +87,7 @@ impl fmt::Display for SphereTest {
         let separators = match self {
             Self::Exact => return f.write_str("exact"),
             Self::Box => return f.write_str("box"),
+            Self::Projected => return f.write_str("mm"),
             Self::Separating(separators) => separators,
         };
         let axes: String = Separators::AXES
@@ -105,6 +109,7 @@ impl FromStr for SphereTest {
         match text {
             "exact" => return Ok(Self::Exact),
             "box" => return Ok(Self::Box),
+            "mm" => return Ok(Self::Projected),
             _ => {}
         }
         separating(text).map(Self::Separating).ok_or_else(|| {
@@ -138,9 +143,19 @@ mod tests {
 
     #[test]
     fn names_are_read_and_written_alike() {
-        for name in
-            ["exact", "box", "hs", "sat-n", "sat-e", "sat-p", "sat-v", "sat-epv", "hs+sat-n", "hs+sat-enpv"]
-        {
+        for name in [
+            "exact",
+            "box",
+            "mm",
+            "hs",
+            "sat-n",
+            "sat-e",
+            "sat-p",
+            "sat-v",
+            "sat-epv",
+            "hs+sat-n",
+            "hs+sat-enpv",
+        ] {
             assert_eq!(name.parse::<SphereTest>().unwrap().to_string(), name);
         }
         assert_eq!("hs+sat-vep".parse::<SphereTest>().unwrap().to_string(), "hs+sat-epv");

@@ -48,6 +48,8 @@ gpu_struct! {
         pub cell: [f32; 3],
         /// The slice coordinate of one metre by a geometric law.
         pub slice_bias: f32,
+        /// Perspective: before this depth nothing is seen, metres.
+        pub near: f32,
         /// What is added to every light's radius, metres: covers rounding at cell boundaries.
         pub slack: f32,
         /// What is added instead of `slack` where it comes to more, per metre of the radius.
@@ -148,6 +150,16 @@ gpu_struct! {
         pub radius: f32,
         /// A [`VolumeKind`](crate::geometry::VolumeKind) as a number.
         pub kind: u32,
+    }
+}
+
+gpu_struct! {
+    /// The cells in which a light is seen, by its rectangle on the screen and its depths; empty where the first lies behind the last.
+    pub struct LightRectangle in texels {
+        /// First cell along each axis.
+        pub first: [u32; 3],
+        /// Last cell along each axis.
+        pub last: [u32; 3],
     }
 }
 

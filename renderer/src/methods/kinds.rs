@@ -4,7 +4,7 @@ use super::grid::{GridMethod, Space};
 use super::sizes::{DEPTH, NODE, SLICES, Size, Sizes, Unit};
 use super::{HashedMethod, Method, NodeSize, Sharing, WorldGrid};
 use crate::assign::{Bounds, Clusters};
-use crate::geometry::CellShape;
+use crate::geometry::{CellShape, SliceLaw, SphereTest};
 
 /// What fragments that share a light list are grouped by, and who makes the lists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,7 +57,7 @@ const PERSPECTIVE: Kind = Kind {
 
 /// Every kind of method. All serve transparent geometry, all views in stereo, and any number of samples (models: where fragments
 /// run for each).
-pub static KINDS: [Kind; 18] = [
+pub static KINDS: [Kind; 20] = [
     Kind {
         name: "indi-persp",
         sizes: &["PIXELS"],
@@ -132,7 +132,7 @@ pub static KINDS: [Kind; 18] = [
         tuned: &[28.0],
         title: "T-I",
         about: "tiles of each view's screen, all of them with lists",
-        make: |sizes| tiles(Bounds::Implicit, sizes),
+        make: |sizes| Method::Grid(tiles(Bounds::Implicit, sizes)),
         ..PERSPECTIVE
     },
     Kind {
@@ -141,7 +141,7 @@ pub static KINDS: [Kind; 18] = [
         tuned: &[28.0],
         title: "T-E",
         about: "tiles of each view's screen, each with the depths of its samples",
-        make: |sizes| tiles(Bounds::Measured, sizes),
+        make: |sizes| Method::Grid(tiles(Bounds::Measured, sizes)),
         ..PERSPECTIVE
     },
     Kind {
@@ -190,6 +190,30 @@ pub static KINDS: [Kind; 18] = [
         make: |sizes| {
             let [columns, rows, slices] = [sizes[0], sizes[1], sizes[2]];
             Method::grid(Sharing::Indi, Space::Counted { columns, rows, slices })
+        },
+        ..PERSPECTIVE
+    },
+    Kind {
+        name: "tiled-mm",
+        sizes: &["PIXELS"],
+        tuned: &[32.0],
+        title: "Tiled MM",
+        about: "tiles of each view's screen, all of them with the lights whose rectangle on the screen meets them",
+        make: |sizes| {
+            let test = SphereTest::Projected;
+            Method::Grid(GridMethod { test, ..tiles(Bounds::Implicit, sizes) })
+        },
+        ..PERSPECTIVE
+    },
+    Kind {
+        name: "clustered-mm",
+        sizes: &["PIXELS"],
+        tuned: &[32.0],
+        title: "Clustered MM",
+        about: "such tiles in slices as deep as tiles are high, visible clusters with lists",
+        make: |sizes| {
+            let grid = GridMethod::new(Sharing::Indi, Space::Persp { pixels: sizes[0] });
+            Method::Grid(GridMethod { test: SphereTest::Projected, slices: SliceLaw::Cubes, ..grid })
         },
         ..PERSPECTIVE
     },
@@ -252,9 +276,9 @@ fn displ(sharing: Sharing, sizes: &Sizes) -> Method {
 }
 
 /// Tiles that all have lists (Enhuber section 3.1).
-fn tiles(bounds: Bounds, sizes: &Sizes) -> Method {
+fn tiles(bounds: Bounds, sizes: &Sizes) -> GridMethod {
     let tiled = GridMethod::new(Sharing::Indi, Space::Tiled { pixels: sizes[0] });
-    Method::Grid(GridMethod { clusters: Clusters::All, bounds, ..tiled })
+    GridMethod { clusters: Clusters::All, bounds, ..tiled }
 }
 
 /// Tiles in slices (Enhuber section 3.2).
@@ -362,6 +386,7 @@ mod tests {
             assert!(kind.takes(&method.sizes()));
             if let Method::Grid(grid) = method {
                 assert_eq!((grid.sharing, Some(grid.space.shape())), (kind.sharing, kind.cells()));
+                assert_eq!(grid.test == SphereTest::Projected, kind.name.ends_with("-mm"), "{}", kind.name);
             }
         }
     }

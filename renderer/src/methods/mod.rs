@@ -1,8 +1,8 @@
 //! The ways of finding the lights of a fragment. [`KINDS`] is the one table of them: name, sizes, and what each can do.
 //!
 //! A method's name is its identity everywhere: on the command line, in configurations, as run directory and as row of every
-//! table. `indi-persp-64`, `encl-ortho-4`, `indi-displ-64-32`, `tiled-16`, `sc-e-48-40`, `ortiz-16-9-24`, `g-20`, `m`,
-//! `hashed-0.5-3`, `all-lights`.
+//! table. `indi-persp-64`, `encl-ortho-4`, `indi-displ-64-32`, `tiled-16`, `sc-e-48-40`, `ortiz-16-9-24`, `tiled-mm-32`,
+//! `g-20`, `m`, `hashed-0.5-3`, `all-lights`.
 //!
 //! ```text
 //! plan (pure, f64) -> resources -> record (passes) -> lookup/<name>.glsl (shading) -> twin (CPU)
@@ -28,8 +28,8 @@ pub use world::{GridBox, WorldGrid};
 
 use crate::Result;
 use crate::assign::{Bounds, ClusterBounds, Clusters};
-use crate::geometry::Grid;
 use crate::geometry::views::View;
+use crate::geometry::{Grid, SliceLaw, SphereTest};
 use crate::lights::PointLight;
 use crate::measure::Capacities;
 use crate::pass::Recorder;
@@ -121,6 +121,32 @@ impl Method {
         match self {
             Self::AllLights | Self::World(_) | Self::Models | Self::Hashed(_) => Bounds::Implicit,
             Self::Grid(grid) => grid.bounds,
+        }
+    }
+
+    /// What decides whether a light meets a cluster by the method's name; models are tested exactly.
+    pub fn own_test(&self) -> SphereTest {
+        match self {
+            Self::AllLights | Self::Hashed(_) => SphereTest::HALF_SPACES,
+            Self::Grid(grid) => grid.test,
+            Self::World(_) => SphereTest::Box,
+            Self::Models => SphereTest::Exact,
+        }
+    }
+
+    /// Where slices begin by the method's name.
+    pub fn own_slices(&self) -> SliceLaw {
+        match self {
+            Self::Grid(grid) => grid.slices,
+            Self::AllLights | Self::World(_) | Self::Models | Self::Hashed(_) => SliceLaw::Geometric,
+        }
+    }
+
+    /// Side of the tiles that a view's screen of so many pixels is divided into, where there are such.
+    pub fn tile_pixels(&self, resolution: [u32; 2]) -> Option<f64> {
+        match self {
+            Self::Grid(grid) => grid.tile_pixels(resolution),
+            Self::AllLights | Self::World(_) | Self::Models | Self::Hashed(_) => None,
         }
     }
 

@@ -1,6 +1,6 @@
 //! A method's name: the name of its kind and its sizes, as plain decimal numbers: `indi-persp-64`, `encl-ortho-0.5`,
-//! `indi-displ-64-32`, `tiled-16`, `sc-e-48-40`, `ortiz-16-9-24`, `g-20`, `m`, `hashed-0.5-3`, `hashed-2m-3`, `all-lights`. A size
-//! may have its unit behind it.
+//! `indi-displ-64-32`, `tiled-16`, `sc-e-48-40`, `ortiz-16-9-24`, `clustered-mm-32`, `g-20`, `m`, `hashed-0.5-3`, `hashed-2m-3`,
+//! `all-lights`. A size may have its unit behind it.
 
 use super::sizes::Size;
 use super::{KINDS, Kind, Method};
@@ -70,6 +70,8 @@ mod tests {
             "hashed-0.5-3",
             "hashed-2m-0",
             "ortiz-16-9-24",
+            "tiled-mm-32",
+            "clustered-mm-12.5",
             "all-lights",
         ] {
             assert_eq!(name.parse::<Method>().unwrap().to_string(), name);
@@ -108,6 +110,8 @@ mod tests {
             ("ortiz-16-9-0", "'ortiz-16-9-24'"),
             ("ortiz-16.5-9-24", "'ortiz-16-9-24'"),
             ("ortis-8-4-12", "'ortiz-8-4-12'"),
+            ("tiled-mm", "'tiled-mm-32'"),
+            ("clustered-16", "'clustered-mm-16'"),
             ("", "did you mean"),
         ] {
             let message = wrong.parse::<Method>().unwrap_err().to_string();

@@ -173,7 +173,9 @@ frame_row! {
         gpu_ms_cluster = &["frame/cluster", "frame/octree"];
         /// Depth pass and marking of visible clusters (Gelderen figure 6.8), over clusterings and views; of a method
         /// without clusters, its depth pass.
-        gpu_ms_visibility = &["frame/depth", "frame/cluster/depth", "frame/cluster/mark", "frame/cluster/bounds"];
+        gpu_ms_visibility = &[
+            "frame/depth", "frame/cluster/depth", "frame/cluster/mark", "frame/cluster/sort_tiles", "frame/cluster/bounds",
+        ];
         /// What it takes to know the lengths of the light lists, over clusterings.
         gpu_ms_count_lights = &stages::COUNTING;
         /// Writing of the light lists, over clusterings.

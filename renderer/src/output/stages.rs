@@ -13,18 +13,20 @@ pub struct StageMinima {
 pub const FRAME: &str = "frame";
 
 /// What it takes to know the lengths of the light lists, from lights as the frame has them.
-pub const COUNTING: [&str; 4] = [
+pub const COUNTING: [&str; 6] = [
     "frame/cluster/transform_lights",
     "frame/cluster/cull_lights",
     "frame/cluster/build_hierarchy",
     "frame/cluster/count_lights",
+    "frame/cluster/light_rectangles",
+    "frame/cluster/count_rectangles",
 ];
 
 /// Where each list begins.
 const OFFSETS: &str = "frame/cluster/light_offsets";
 
 /// Writing of the light lists.
-pub const ASSIGNING: [&str; 1] = ["frame/cluster/assign_lights"];
+pub const ASSIGNING: [&str; 2] = ["frame/cluster/assign_lights", "frame/cluster/fill_rectangles"];
 
 /// What frames do only where that which it is made of has changed.
 const ON_CHANGE: &str = "frame/cluster/build_boxes";

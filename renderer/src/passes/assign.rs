@@ -2,10 +2,13 @@
 //! (Gelderen section 5.3). Lists by offsets, by any way, and other lists by hierarchy and scatter:
 //!
 //! ```text
-//! brute      light_volumes ──────────────────────────────> meet ┐
-//! hierarchy  light_nodes ────────────────────────────────> meet ┼> light_masks ─> list_lengths, then light_indices
-//! scatter    candidates ─> groups ─> packets, group_lights ─> meet ┘
+//! brute       light_volumes ──────────────────────────────> meet ┐
+//! hierarchy   light_nodes ────────────────────────────────> meet ┼> light_masks ─> list_lengths, then light_indices
+//! scatter     candidates ─> groups ─> packets, group_lights ─> meet ┤
+//! rectangles  light_rectangles, cluster_bits ─────────────> meet ┘
 //! ```
+//!
+//! Rectangles call the stages `light_rectangles`, `count_rectangles` and `fill_rectangles` (Tegelaers section 5.2).
 //!
 //! Where the masks have no room the device sizes the dispatches otherwise: pairs are found twice, counted first and then
 //! written, and the lists are sorted. Lists that are not by offsets are empty then, which the host refuses.
@@ -40,9 +43,30 @@ pub fn transform_lights(r: &mut Recorder, frame: &Frame, _lights: Lights, visibl
     });
 }
 
+/// The cells in which each light is seen.
+pub fn light_rectangles(r: &mut Recorder, frame: &Frame, _lights: Lights, visible: VisibleClusters) {
+    r.scope("light_rectangles", |r| {
+        r.dispatch(&Dispatch::new(
+            frame.pipelines.clustered().light_rectangles(),
+            frame.buffers(visible.clustering),
+            Size::threads(frame.light_count, ASSIGN_WORKGROUP),
+            (set(&[B::Lights]), set(&[B::LightRectangles])),
+        ));
+    });
+}
+
+/// Names of the stages that count the lights of lists, and write them.
+fn stages(assigner: Assigner) -> [&'static str; 2] {
+    match assigner {
+        Assigner::Brute | Assigner::Hierarchy | Assigner::Scatter => ["count_lights", "assign_lights"],
+        Assigner::Rectangles => ["count_rectangles", "fill_rectangles"],
+    }
+}
+
 /// Lengths of the lists.
 pub fn count_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
-    r.scope("count_lights", |r| {
+    let [stage, _] = stages(frame.assigner);
+    r.scope(stage, |r| {
         let pipelines = frame.pipelines.clustered();
         let (reads, writes) = (set(&[B::State]), set(&[B::LightMasks, B::ListLengths]));
         indirect(r, frame, visible, (&pipelines.clear_lists, DISPATCH_LISTS), (reads, writes));
@@ -52,7 +76,7 @@ pub fn count_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
         let writes = set(&[B::LightMasks, B::ListLengths, B::Counters]);
         meet(r, frame, visible, (&pipelines.meet[0], DISPATCH_MEET), (reads, writes));
         // The others count a packet's lights as they set their bits.
-        if frame.assigner == Assigner::Hierarchy {
+        if matches!(frame.assigner, Assigner::Hierarchy | Assigner::Rectangles) {
             let (reads, writes) = (set(&[B::State, B::LightMasks]), set(&[B::ListLengths]));
             indirect(r, frame, visible, (&pipelines.read_masks[0], DISPATCH_MASKED), (reads, writes));
         }
@@ -61,15 +85,17 @@ pub fn count_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
 
 /// The lists themselves, each by ascending light.
 pub fn assign_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) -> LightLists {
-    r.scope("assign_lights", |r| match (frame.lists, frame.assigner) {
+    let [_, stage] = stages(frame.assigner);
+    r.scope(stage, |r| match (frame.lists, frame.assigner) {
         (ListStore::Offsets, _) => {
             write_lists(r, frame, visible);
             sort_lists(r, frame, visible);
         }
         (ListStore::Fixed(_) | ListStore::Capped(_), Assigner::Brute) => collect(r, frame, visible),
-        (ListStore::Fixed(_) | ListStore::Capped(_), Assigner::Hierarchy | Assigner::Scatter) => {
-            keep_lists(r, frame, visible);
-        }
+        (
+            ListStore::Fixed(_) | ListStore::Capped(_),
+            Assigner::Hierarchy | Assigner::Scatter | Assigner::Rectangles,
+        ) => keep_lists(r, frame, visible),
     });
     LightLists::of(visible)
 }
@@ -129,13 +155,23 @@ fn meet(
     dispatch: (&Pipeline, u32),
     (reads, writes): (BufferSet, BufferSet),
 ) {
-    let lights = match frame.assigner {
-        Assigner::Brute => set(&[B::LightVolumes]),
-        Assigner::Hierarchy => set(&[B::TreeVolumes, B::TreeLights, B::LightNodes]),
-        Assigner::Scatter => set(&[B::LightVolumes, B::Groups, B::PacketGroups, B::GroupLights]),
+    let cells = set(&[B::VisibleClusters, B::ClusterBounds]) | boxes(frame);
+    let met = match frame.assigner {
+        Assigner::Brute => cells | set(&[B::LightVolumes]),
+        Assigner::Hierarchy => cells | set(&[B::TreeVolumes, B::TreeLights, B::LightNodes]),
+        Assigner::Scatter => cells | set(&[B::LightVolumes, B::Groups, B::PacketGroups, B::GroupLights]),
+        Assigner::Rectangles => frame.places() | set(&[B::LightRectangles]) | measured(frame),
     };
-    let reads = reads | lights | set(&[B::VisibleClusters, B::ClusterBounds]) | boxes(frame);
+    let reads = reads | met;
     indirect(r, frame, visible, dispatch, (reads, writes));
+}
+
+/// What is measured of clusters, and the lights that are tested against it, where that is.
+fn measured(frame: &Frame) -> BufferSet {
+    match frame.bounds {
+        ClusterBounds::Cell => BufferSet::EMPTY,
+        ClusterBounds::Depth | ClusterBounds::Box => set(&[B::Lights, B::VisibleClusters, B::ClusterBounds]),
+    }
 }
 
 /// The boxes around cells, where a cluster's cell is tested.

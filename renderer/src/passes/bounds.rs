@@ -4,7 +4,7 @@
 //! The fragments that marking and shading see, at the same places, give it, in any order: the bounds are the same.
 
 use super::handles::{Depth, VisibleClusters};
-use super::inputs::{Eyes, Frame, PLACES};
+use super::inputs::{Eyes, Frame};
 use super::mark::visit;
 use crate::assign::ClusterBounds;
 use crate::buffers::{BufferName as B, set};
@@ -20,7 +20,7 @@ pub fn record(r: &mut Recorder, frame: &Frame, view: usize, (depth, visible): (D
         if view == this.views.start {
             r.clear(&this.buffers[B::ClusterBounds]);
         }
-        let found = (PLACES, set(&[B::ClusterBounds]));
+        let found = (frame.places(), set(&[B::ClusterBounds]));
         let size = match frame.bounds {
             ClusterBounds::Depth => by_tile(frame.resolution, this.dimensions),
             ClusterBounds::Cell | ClusterBounds::Box => Size::pixels(frame.resolution),

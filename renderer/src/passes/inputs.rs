@@ -190,13 +190,19 @@ pub struct Frame<'a> {
     pub slot: usize,
 }
 
-/// What tells the place of a visible cluster among the lists.
-pub const PLACES: BufferSet = set(&[B::ClusterBits, B::WordRanks, B::ClusterPlaces]);
-
 impl Frame<'_> {
+    /// What tells the place of a visible cluster among the lists.
+    pub fn places(&self) -> BufferSet {
+        match self.compaction {
+            Compaction::Ranks => set(&[B::ClusterBits, B::WordRanks]),
+            Compaction::Atomic => set(&[B::ClusterBits, B::ClusterPlaces]),
+            Compaction::Sort => set(&[B::TileOffsets, B::VisibleClusters]),
+        }
+    }
+
     /// What tells the place of a group among the lists: of a visible cluster, or of a leaf.
     pub fn group_places(&self) -> BufferSet {
-        PLACES | set(&[B::OctreeNodes, B::OctreeOffsets])
+        self.places() | set(&[B::OctreeNodes, B::OctreeOffsets])
     }
 
     /// What tells the list of a group.

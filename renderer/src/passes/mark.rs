@@ -4,7 +4,7 @@
 use super::draws::{self, SurfacePipelines};
 use super::handles::Depth;
 use super::inputs::{Eyes, Frame};
-use crate::assign::Marking;
+use crate::assign::{Compaction, Marking};
 use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::draw_list::SurfaceKind;
 use crate::pass::{Dispatch, Push, Recorder, Size};
@@ -21,7 +21,14 @@ pub fn record(r: &mut Recorder, frame: &Frame, (clustering, view): (usize, usize
         }
         let found = (BufferSet::EMPTY, set(&[B::ClusterBits]));
         let by_pixel = Size::pixels(frame.resolution);
-        visit(r, frame, (clustering, view), (&frame.pipelines.clustered().mark, by_pixel), found);
+        let mark = &frame.pipelines.clustered().mark;
+        match frame.compaction {
+            Compaction::Ranks | Compaction::Atomic => {
+                visit(r, frame, (clustering, view), (mark, by_pixel), found);
+            }
+            // What depth shows is sorted instead.
+            Compaction::Sort => visit_kinds(r, frame, view, (mark, &[SurfaceKind::Transparent]), found),
+        }
     });
 }
 
@@ -63,8 +70,19 @@ pub(super) fn visit(
         }
         (Marking::Depth, None) | (Marking::Geometry, _) => &SurfaceKind::ALL[..],
     };
+    visit_kinds(r, frame, view, (pipelines, kinds), (reads, writes));
+}
+
+/// Visits the cluster of every fragment of surfaces of some kinds, the last ones of all.
+fn visit_kinds(
+    r: &mut Recorder,
+    frame: &Frame,
+    view: usize,
+    (pipelines, kinds): (&VisitPipelines, &[SurfaceKind]),
+    found: (BufferSet, BufferSet),
+) {
     let draws =
         SurfaceKind::ALL.map(|kind| (kind, SurfacePipelines::One(&pipelines.geometry[kind as usize])));
     let first = SurfaceKind::ALL.len() - kinds.len();
-    draws::visits(r, frame, view, &draws[first..], (reads, writes));
+    draws::visits(r, frame, view, &draws[first..], found);
 }

@@ -32,6 +32,7 @@ pub mod resolve;
 pub mod scan;
 pub mod seen;
 pub mod shade;
+pub mod sort_tiles;
 pub mod spheres;
 pub mod take_places;
 

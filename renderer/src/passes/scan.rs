@@ -1,5 +1,5 @@
-//! The one prefix sum: stages `compact` (over the visibility words) and `light_offsets` (over the lengths of the lists),
-//! and parts of others (over the digits of the sort, the packets of scatter's groups).
+//! The one prefix sum: stages `compact` (over the visibility words), `tile_offsets` (over the clusters of tiles) and
+//! `light_offsets` (over the lengths of the lists), and parts of others (over the digits of the sort, the packets of scatter's groups).
 //!
 //! ```text
 //! items ──reduce──> block_sums ──block_offsets──> block_sums, total ──apply──> exclusive prefix per item
@@ -29,6 +29,8 @@ struct Scan<'a> {
     length: BufferSet,
     /// The items.
     summed: BufferSet,
+    /// What else is read of an item once its prefix is known.
+    emitted: BufferSet,
     /// What becomes of the items and their prefixes.
     emits: BufferSet,
     /// What follows from the total.
@@ -45,8 +47,29 @@ pub fn compact(r: &mut Recorder, frame: &Frame, clustering: usize) -> VisibleClu
             size: None,
             length: BufferSet::EMPTY,
             summed: set(&[B::ClusterBits]),
+            emitted: BufferSet::EMPTY,
             emits: set(&[B::WordRanks, B::VisibleClusters]),
             publishes: set(&[B::State, B::Dispatches]),
+            push: Push::default(),
+        };
+        record(r, frame, clustering, &scan);
+    });
+    VisibleClusters { clustering }
+}
+
+/// Lists the visible clusters tile by tile, from the slices that tiles have.
+pub fn tile_offsets(r: &mut Recorder, frame: &Frame, clustering: usize) -> VisibleClusters {
+    r.scope("tile_offsets", |r| {
+        let [columns, rows, _] = frame.clusterings[clustering].dimensions;
+        let scan = Scan {
+            pipelines: &frame.pipelines.clustered().sort_tiles().tile_offsets,
+            items: columns * rows,
+            size: None,
+            length: BufferSet::EMPTY,
+            summed: set(&[B::TileCounts]),
+            emitted: set(&[B::TileSlices]),
+            emits: set(&[B::TileOffsets, B::VisibleClusters]),
+            publishes: set(&[B::TileOffsets, B::State, B::Dispatches]),
             push: Push::default(),
         };
         record(r, frame, clustering, &scan);
@@ -64,6 +87,7 @@ pub fn light_offsets(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) 
             size: Some(DISPATCH_SCAN),
             length: set(&[B::State]),
             summed: set(&[B::ListLengths]),
+            emitted: BufferSet::EMPTY,
             emits: set(&[B::ListOffsets]),
             publishes: set(&[B::State, B::ListOffsets]),
             push: Push::default(),
@@ -81,6 +105,7 @@ pub(super) fn group_packets(r: &mut Recorder, frame: &Frame, visible: VisibleClu
         size: None,
         length: set(&[B::State]),
         summed: set(&[B::Groups]),
+        emitted: BufferSet::EMPTY,
         emits: set(&[B::Groups, B::PacketGroups]),
         publishes: set(&[B::State, B::Dispatches]),
         push: Push::default(),
@@ -97,6 +122,7 @@ pub(super) fn digit_offsets(r: &mut Recorder, frame: &Frame, visible: VisibleClu
         size: Some(DISPATCH_SORT_SCAN),
         length: set(&[B::State]),
         summed: set(&[B::DigitCounts]),
+        emitted: BufferSet::EMPTY,
         emits: set(&[B::DigitCounts]),
         publishes: BufferSet::EMPTY,
         push: Push::step(step),
@@ -105,7 +131,7 @@ pub(super) fn digit_offsets(r: &mut Recorder, frame: &Frame, visible: VisibleClu
 }
 
 fn record(r: &mut Recorder, frame: &Frame, clustering: usize, scan: &Scan) {
-    let Scan { pipelines, length, summed, emits, publishes, push, .. } = *scan;
+    let Scan { pipelines, length, summed, emitted, emits, publishes, push, .. } = *scan;
     let blocks = scan.items.div_ceil(SCAN_BLOCK);
     let items = length | summed;
     let mut run = |pipeline, size, reads: BufferSet, writes: BufferSet| {
@@ -114,12 +140,12 @@ fn record(r: &mut Recorder, frame: &Frame, clustering: usize, scan: &Scan) {
         r.dispatch(&Dispatch { push, ..Dispatch::new(pipeline, frame.buffers(clustering), size, declared) });
     };
     if blocks <= MAX_SINGLE_BLOCKS {
-        run(&pipelines.single, Size::Workgroups(1, 1), items, emits | publishes);
+        run(&pipelines.single, Size::Workgroups(1, 1), items | emitted, emits | publishes);
         return;
     }
     let size = scan.size.map_or(Size::Workgroups(blocks, 1), Size::Indirect);
     let sums = set(&[B::BlockSums]);
     run(&pipelines.reduce, size, items, sums);
     run(&pipelines.block_offsets, Size::Workgroups(1, 1), length, sums | publishes);
-    run(&pipelines.apply, size, items | sums, emits);
+    run(&pipelines.apply, size, items | emitted | sums, emits);
 }

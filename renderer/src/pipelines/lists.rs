@@ -2,7 +2,7 @@
 
 use super::{Defines, PipelineStore, ScanPipelines, Variant, Visit, VisitPipelines};
 use crate::Result;
-use crate::assign::{Assigner, Compaction, ListStore};
+use crate::assign::{Assigner, Compaction, ListStore, sorted_keys};
 use crate::layouts::Pipeline;
 use std::sync::Arc;
 
@@ -52,12 +52,32 @@ impl Maker<'_> {
     /// Counting clusters into places, and what follows from their number, where that is how they get them.
     fn take_places(&mut self) -> Result<Option<[Arc<Pipeline>; 2]>> {
         match self.variant.compaction {
-            Compaction::Ranks => Ok(None),
+            Compaction::Ranks | Compaction::Sort => Ok(None),
             Compaction::Atomic => Ok(Some([
                 self.lists("cluster/take_places.comp")?,
                 self.lists("cluster/publish_places.comp")?,
             ])),
         }
+    }
+
+    /// Sorting the samples of tiles, and the prefix sum of their clusters, where that finds the visible ones.
+    fn sort_tiles(&mut self) -> Result<Option<TilePipelines>> {
+        let Variant { compaction, sorted_tile, samples, .. } = *self.variant;
+        if compaction != Compaction::Sort {
+            return Ok(None);
+        }
+        let defines = self
+            .defines
+            .with("TILE_PIXELS", sorted_tile)
+            .with("TILE_KEYS", sorted_keys(sorted_tile, samples));
+        let sort_tiles = self.store.compute("cluster/sort_tiles.comp", &defines)?;
+        Ok(Some(TilePipelines { sort_tiles, tile_offsets: self.scan("SCAN_TILES")? }))
+    }
+
+    /// Finding the cells in which lights are seen, where lights are handed to these.
+    fn light_rectangles(&mut self) -> Result<Option<Arc<Pipeline>>> {
+        let wanted = self.variant.assigner == Assigner::Rectangles;
+        wanted.then(|| self.tests("assign/light_rectangles.comp")).transpose()
     }
 
     fn scan(&mut self, items: &str) -> Result<ScanPipelines> {
@@ -67,6 +87,14 @@ impl Maker<'_> {
     fn visit(&mut self, visit: Visit) -> Result<VisitPipelines> {
         self.store.visit(self.variant, visit)
     }
+}
+
+/// Sorts the samples of tiles by their slices, and lists the clusters that hold some.
+pub struct TilePipelines {
+    /// The slices of each tile.
+    pub sort_tiles: Arc<Pipeline>,
+    /// Prefix sum of their numbers.
+    pub tile_offsets: ScanPipelines,
 }
 
 fn twice(
@@ -110,10 +138,14 @@ pipelines! {
         compact: ScanPipelines = make.scan("SCAN_VISIBILITY");
         /// Places for visible clusters by a counter, and what follows from their number.
         take_places: Option<[Arc<Pipeline>; 2]> = make.take_places();
+        /// Visible clusters by sorting the samples of tiles.
+        sort_tiles: Option<TilePipelines> = make.sort_tiles();
         /// Every cluster as a visible one.
         list_clusters: Arc<Pipeline> = make.lists("cluster/list_clusters.comp");
         /// Takes lights into clustering space.
         transform_lights: Arc<Pipeline> = make.lists("assign/transform_lights.comp");
+        /// The cells in which each light is seen.
+        light_rectangles: Option<Arc<Pipeline>> = make.light_rectangles();
         /// Empties what counting fills in any order.
         clear_lists: Arc<Pipeline> = make.lists("assign/clear_lists.comp");
         /// Pairs of light and cluster that meet: to bits or lengths of lists, and once more, to the lists, in any order.
@@ -159,6 +191,16 @@ impl ClusteredPipelines {
         self.take_places.as_ref().expect("a counter gives places where compaction is atomic")
     }
 
+    /// Finds visible clusters by sorting the samples of tiles; only its passes ask.
+    pub fn sort_tiles(&self) -> &TilePipelines {
+        self.sort_tiles.as_ref().expect("tiles are sorted where compaction is by sorting them")
+    }
+
+    /// Finds the cells in which lights are seen; only its pass asks.
+    pub fn light_rectangles(&self) -> &Pipeline {
+        self.light_rectangles.as_ref().expect("lights have rectangles where these are how they are assigned")
+    }
+
     /// Takes lights to lists in one pass; only that asks.
     pub fn collect(&self) -> &Pipeline {
         self.collect.as_ref().expect("one pass makes lists by brute force that no lengths place")
@@ -171,5 +213,6 @@ fn meet(assigner: Assigner) -> &'static str {
         Assigner::Brute => "assign/brute.comp",
         Assigner::Hierarchy => "assign/hierarchy.comp",
         Assigner::Scatter => "assign/scatter.comp",
+        Assigner::Rectangles => "assign/rectangles.comp",
     }
 }

@@ -26,6 +26,8 @@ pub struct Variant {
     pub bounds: ClusterBounds,
     /// How visible clusters get their places.
     pub compaction: Compaction,
+    /// Side of the tiles that are sorted for it, pixels; 0 where none are.
+    pub sorted_tile: u32,
     /// How the lists lie in memory.
     pub lists: ListStore,
     /// Where slices begin.
@@ -157,6 +159,7 @@ impl Variant {
         let compaction = match self.compaction {
             Compaction::Ranks => "COMPACTION_RANKS",
             Compaction::Atomic => "COMPACTION_ATOMIC",
+            Compaction::Sort => "COMPACTION_SORT",
         };
         let lists = match self.lists {
             ListStore::Offsets => "LISTS_OFFSETS",
@@ -210,6 +213,7 @@ impl Variant {
             Assigner::Brute => "ASSIGN_BRUTE",
             Assigner::Hierarchy => "ASSIGN_HIERARCHY",
             Assigner::Scatter => "ASSIGN_SCATTER",
+            Assigner::Rectangles => "ASSIGN_RECTANGLES",
         };
         self.defines().with("ASSIGN", assigner)
     }
@@ -231,6 +235,7 @@ impl Variant {
             .with("TEST_SAT_P", u32::from(normals))
             .with("TEST_SAT_V", u32::from(vertices))
             .with("TEST_NEAREST", u32::from(nearest))
+            .with("TEST_MM", u32::from(self.test == SphereTest::Projected))
             .with("BOXED", u32::from(self.is_boxed()))
             .with("TEST_BOUNDED", u32::from(self.test.is_bounded(boxes) && !self.has_models()))
     }

@@ -27,7 +27,7 @@ use serde::Serialize;
 /// What `bench assign` times.
 #[derive(Debug, Clone)]
 pub struct AssignBench {
-    /// Ways of assignment, all on each frame.
+    /// Ways of assignment, on each frame all that serve the test.
     pub assigners: Vec<Assigner>,
     /// Tests of light against cluster, each by all ways.
     pub tests: Vec<Test>,
@@ -40,6 +40,11 @@ pub struct AssignBench {
 }
 
 impl AssignBench {
+    /// The ways that serve a test.
+    fn assigners_for(&self, test: SphereTest) -> impl Iterator<Item = Assigner> {
+        self.assigners.iter().copied().filter(move |assigner| assigner.serves(test))
+    }
+
     /// What the tests are for a method, each once.
     pub fn tests_of(&self, method: &Method) -> Vec<SphereTest> {
         let mut tests = vec![];
@@ -59,7 +64,7 @@ pub struct BenchRow {
     pub lights: u32,
     /// Name of the method.
     pub method: String,
-    /// The way: `brute`, `hierarchy` or `scatter`; or [`LIMIT`], the least that any way can do.
+    /// The way: `brute`, `hierarchy`, `scatter` or `rectangles`; or [`LIMIT`], the least that any way can do.
     pub assign: String,
     /// The test of light against cluster.
     pub test: String,
@@ -154,7 +159,8 @@ impl Ways {
 impl TimedFrame<'_> {
     fn measure(&self, session: &mut Session, bench: &AssignBench, watch: &Watch) -> Result<Vec<BenchRow>> {
         let tests = bench.tests_of(&self.run.methods[0]);
-        let ways = tests.into_iter().map(|test| self.ways(session, bench, test));
+        let served = |test: &SphereTest| bench.assigners_for(*test).next().is_some();
+        let ways = tests.into_iter().filter(served).map(|test| self.ways(session, bench, test));
         let mut ways = ways.collect::<Result<Vec<_>>>()?;
         for _ in 0..=bench.repeats {
             // The first turn warms up, and counts as the others: it is never the least.
@@ -168,7 +174,8 @@ impl TimedFrame<'_> {
         let run = &Config { test: vec![Test::Named(test)], ..self.run.clone() };
         let tested = TimedFrame { run, ..*self };
         let (mut rows, mut engines) = (vec![], vec![]);
-        for &assigner in &bench.assigners {
+        let assigners: Vec<Assigner> = bench.assigners_for(test).collect();
+        for &assigner in &assigners {
             rows.push(tested.count(session, (assigner, test))?);
             engines.push(tested.engine(session, assigner, false)?);
         }
@@ -177,7 +184,7 @@ impl TimedFrame<'_> {
         };
         let limit_row = BenchRow { assign: LIMIT.to_owned(), intersection_tests: 0, ..row.clone() };
         rows.insert(0, limit_row);
-        let last = bench.assigners[bench.assigners.len() - 1];
+        let last = assigners[assigners.len() - 1];
         let limit = Limit::new(session, engine, (run, &tested.mode(last, false)))?;
         Ok(Ways { rows, engines, limit })
     }

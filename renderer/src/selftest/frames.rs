@@ -10,8 +10,8 @@ use crate::pass::Faults;
 use crate::{config::FrameRange, methods::Method};
 
 /// Brute force over all lights, the truth, the six methods of the default replay, tiles, and what else is done with clusters:
-/// all of them or visible ones, by their samples; cells of the world, models, and leaves of an octree.
-pub const METHODS: [&str; 13] = [
+/// all of them or visible ones, by their samples, by rectangles on the screen; cells of the world, models, and leaves of an octree.
+pub const METHODS: [&str; 14] = [
     "all-lights",
     "indi-persp-64",
     "encl-persp-64",
@@ -22,6 +22,7 @@ pub const METHODS: [&str; 13] = [
     "tiled-16",
     "t-e-28",
     "sc-e-48-40",
+    "clustered-mm-32",
     "g-20",
     "m",
     "hashed-0.5-3",

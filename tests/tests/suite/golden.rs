@@ -77,5 +77,10 @@ fn hall() {
 
 #[test]
 fn temple() {
-    golden(&["indi-persp-64", "encl-ortho-4"], ["temple", "suntem"], Lighting::with_count(1000), 300);
+    golden(
+        &["indi-persp-64", "encl-ortho-4", "tiled-mm-16", "clustered-mm-16"],
+        ["temple", "suntem"],
+        Lighting::with_count(1000),
+        300,
+    );
 }

@@ -116,6 +116,29 @@ fn lists_lie_between_what_reaches_a_cluster_and_what_half_spaces_let_pass() {
     }
 }
 
+/// A rectangle in which a light is seen holds the light's projection, and no more than the half spaces of tiles let pass.
+#[test]
+fn rectangles_lie_between_what_reaches_a_cluster_and_what_half_spaces_let_pass() {
+    let names = ["t-i-28", "t-e-16", "clustered-mm-32", "encl-persp-64", "indi-displ-64-32"];
+    for scene in [STREET, HALL] {
+        let test = ["hs", "mm", "exact"].map(|name| name.parse().unwrap()).to_vec();
+        let (runs, _) = runs(&Config { test, exr: ExrFrames::List(vec![]), ..config(scene, &names) });
+        for of_method in runs.chunks(3) {
+            let [half_spaces, seen, exact] = of_method else { panic!("three tests") };
+            assert_within(seen, half_spaces);
+            assert_within(exact, seen);
+        }
+        let indices = |test: usize| -> u64 {
+            runs.chunks(3).map(|of_method| of_method[test].counts[0].light_indices()).sum()
+        };
+        assert!(
+            indices(2) < indices(1) && indices(1) < indices(0),
+            "{scene:?}: {:?}",
+            [0, 1, 2].map(indices)
+        );
+    }
+}
+
 /// A tile is the union of its clusters: they share their sides, and their slices leave no gap. So what half spaces or the exact
 /// test find of it they find of one of these, and the other way round. Separating axes of a tile, which its clusters do not have,
 /// may keep out what one of them lets pass.

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::config::{Assign, Test};
+use crate::geometry::SphereTest;
 
 /// The lists of every set of lights among the clusters of `bits`.
 fn lists_of(
@@ -62,7 +63,10 @@ fn all_ways_agree((method, grid): (Method, Grid), test: Test, sets: &[Vec<PointL
         (Assign::Scatter, Room::None),
     ];
     // How lists are kept does not depend on the test.
-    for (assign, room) in ways.into_iter().take(if test == Test::Auto { 5 } else { 2 }) {
+    let ways = ways.into_iter().take(if test == Test::Auto { 5 } else { 2 });
+    let rectangles = [(Assign::Rectangles, Room::Plenty), (Assign::Rectangles, Room::None)];
+    let seen = rectangles.into_iter().filter(|_| test == Test::Named(SphereTest::Projected));
+    for (assign, room) in ways.chain(seen) {
         let lists = lists_of((assign, test, room), (method, grid), sets, &bits);
         for (case, (these, those)) in lists.iter().zip(&brute).enumerate() {
             assert!(these.offsets == those.offsets, "{assign}, {test}, {room:?}, set {case}: other lengths");
@@ -89,7 +93,7 @@ fn orthographic_lists_are_the_same_by_all_ways() {
 fn lists_are_the_same_by_all_ways_whatever_the_test() {
     let radii = |u: f32| 0.02 * 3000f32.powf(u.powi(8));
     let sets = [lights(1000), random_lights(17_000, 7, 60.0, radii)];
-    for test in ["sat-n", "sat-e", "hs+sat-n", "sat-epv", "exact"] {
+    for test in ["mm", "sat-n", "sat-e", "hs+sat-n", "sat-epv", "exact"] {
         let test = test.parse().unwrap();
         all_ways_agree((PERSP, frustum_grid([7, 5, 11])), test, &sets);
     }

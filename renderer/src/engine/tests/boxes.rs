@@ -12,7 +12,7 @@ use crate::passes::build_boxes;
 const CLOSE: f64 = 4e-7;
 
 /// A grid by a slice law.
-fn sliced(law: SliceLaw) -> Grid {
+pub fn sliced(law: SliceLaw) -> Grid {
     let mut grid = frustum_grid([13, 9, 21]);
     let ClusterSpace::Perspective { frustum, .. } = grid.space else { panic!("a frustum") };
     let slices = Slices::new(law, &frustum, 250f64.powf(1.0 / 21.0) - 1.0, 21.0);
@@ -20,7 +20,7 @@ fn sliced(law: SliceLaw) -> Grid {
     grid
 }
 
-fn by_law(law: SliceLaw) -> Config {
+pub fn by_law(law: SliceLaw) -> Config {
     Config { slices: vec![law.into()], ..config() }
 }
 

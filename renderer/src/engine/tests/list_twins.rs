@@ -95,7 +95,7 @@ impl CulledDevice {
 }
 
 impl Bench {
-    fn volumes(&mut self, name: BufferName, count: usize) -> Vec<LightVolume> {
+    pub fn volumes(&mut self, name: BufferName, count: usize) -> Vec<LightVolume> {
         let words = self.download(name, count.max(1) * size_of::<device::LightVolume>() / 4);
         bytemuck::cast_slice(&words)[..count].iter().map(volume).collect()
     }

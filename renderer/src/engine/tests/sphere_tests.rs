@@ -16,6 +16,12 @@ fn orthographic() -> (Method, Grid) {
     (ORTHO, box_grid([23, 17, 29]))
 }
 
+/// Tests of the clusters of perspective grids.
+fn tests_of(method: Method) -> impl Iterator<Item = SphereTest> {
+    let seen = (method == PERSP).then_some("mm");
+    TESTS.into_iter().chain(seen).map(|name| name.parse().unwrap())
+}
+
 /// A grid with about half of its clusters visible, on the device.
 struct Case {
     grid: Grid,
@@ -55,7 +61,9 @@ fn lists_equal_their_twin((method, grid): (Method, Grid), test: SphereTest, ligh
     let twin = cpu::assign(&grid, &case.visible, &case.lights, test, 1e-4);
     assert_eq!(list_checks::twin_fault(&lists, &twin), None, "{test}");
     let borderline: usize = twin.borderline.iter().map(Vec::len).sum();
-    assert!(borderline * 200 < twin.indices.len(), "{test}: {borderline} pairs are too close to call");
+    // Where the near plane cuts a sphere, 0.4 m ahead, clusters are centimetres wide.
+    let rare = if test == SphereTest::Projected { 40 } else { 200 };
+    assert!(borderline * rare < twin.indices.len(), "{test}: {borderline} pairs are too close to call");
 }
 
 #[test]
@@ -72,10 +80,10 @@ fn orthographic_lists_equal_their_twin() {
 
 #[test]
 fn lists_of_all_tests_equal_their_twins() {
-    for test in TESTS.map(|name| name.parse().unwrap()) {
-        let lights = || random_lights(1000, 9, 15.0, |u| 1.0 + 4.0 * u);
-        lists_equal_their_twin((PERSP, frustum_grid([7, 6, 13])), test, lights());
-        lists_equal_their_twin((ORTHO, box_grid([11, 9, 13])), test, lights());
+    for (method, grid) in [(PERSP, frustum_grid([7, 6, 13])), (ORTHO, box_grid([11, 9, 13]))] {
+        for test in tests_of(method) {
+            lists_equal_their_twin((method, grid), test, random_lights(1000, 9, 15.0, |u| 1.0 + 4.0 * u));
+        }
     }
 }
 
@@ -84,7 +92,7 @@ fn no_touching_light_is_lost(method: Method, grid: Grid, farthest: f64) {
     let (touched, lights): (Vec<u32>, Vec<PointLight>) =
         touching_lights(&grid, &visible, farthest, 4000).unwrap().into_iter().unzip();
     let case = Case::new(grid, lights);
-    for test in TESTS.map(|name| name.parse().unwrap()) {
+    for test in tests_of(method) {
         let lists = case.lists(method, test);
         for (light, cluster) in (0u32..).zip(&touched) {
             let list = lists.of(visible.binary_search(cluster).unwrap());

@@ -3,9 +3,10 @@
 //! | | | |
 //! | --- | --- | --- |
 //! | grouping | [`Space`]: what the cells are; [`Sharing`]: whose grid it is | the name's |
-//! | depths between slices | [`SliceLaw`] | the configuration's, else geometric |
+//! | depths between slices | [`SliceLaw`] | the configuration's, else the name's: geometric for most |
 //! | groups with lists | [`Clusters`]: those that hold a fragment, or all | the configuration's, else the name's |
 //! | bounds tested against lights | [`Bounds`] | the configuration's, else the name's |
+//! | test of lights | [`SphereTest`] | the configuration's, else the name's |
 //! | list store | [`ListStore`] | the configuration's |
 //!
 //! [`GridMethod::plan`] makes the grids, [`capacities`] sizes their buffers, [`record()`] runs their passes, `lookup/clustered.glsl` walks
@@ -26,10 +27,10 @@ pub use record::{compact, light_lists, record};
 pub use resources::capacities;
 
 use super::Sharing;
-use crate::assign::{Bounds, ClusterBounds, Clusters};
-use crate::geometry::CellShape;
 #[cfg(doc)]
-use crate::{assign::ListStore, geometry::SliceLaw};
+use crate::assign::ListStore;
+use crate::assign::{Bounds, ClusterBounds, Clusters};
+use crate::geometry::{CellShape, SliceLaw, SphereTest, counted_pixels};
 use std::mem::discriminant;
 
 /// What the cells of a grid are (Gelderen sections 3.1, 4.2, 4.3).
@@ -88,7 +89,7 @@ impl Space {
     }
 
     /// What its cells look like.
-    pub fn shape(&self) -> CellShape {
+    pub const fn shape(&self) -> CellShape {
         match self {
             Self::Persp { .. } | Self::Displ { .. } | Self::Tiled { .. } | Self::Sliced { .. } => {
                 CellShape::Frustum
@@ -143,19 +144,41 @@ pub struct GridMethod {
     pub clusters: Clusters,
     /// What of the clusters is tested against lights where the configuration leaves it to the name.
     pub bounds: Bounds,
+    /// What decides whether a light meets a cluster where the configuration leaves it to the name.
+    pub test: SphereTest,
+    /// Where slices begin where the configuration leaves it to the name.
+    pub slices: SliceLaw,
 }
 
 impl GridMethod {
-    /// The method with lists for visible clusters, and implicit bounds.
+    /// The method with lists for visible clusters, implicit bounds and geometric slices. Lights are tested as in Gelderen's thesis: by
+    /// half spaces in perspective grids, by the box where cells are boxes or can be tested as such.
     pub const fn new(sharing: Sharing, space: Space) -> Self {
+        let test = match space.shape() {
+            CellShape::Box | CellShape::BoxedFrustum => SphereTest::Box,
+            CellShape::Frustum | CellShape::Model => SphereTest::HALF_SPACES,
+        };
         let (clusters, bounds) = (Clusters::Visible, Bounds::Implicit);
-        Self { sharing, space, clusters, bounds }
+        Self { sharing, space, clusters, bounds, test, slices: SliceLaw::Geometric }
+    }
+
+    /// Side of the tiles that a view's screen of so many pixels is divided into, where there are such.
+    pub fn tile_pixels(&self, resolution: [u32; 2]) -> Option<f64> {
+        match (self.sharing, self.space) {
+            (Sharing::Encl, _) | (_, Space::Ortho { .. } | Space::Displ { .. }) => None,
+            (
+                Sharing::Indi,
+                Space::Persp { pixels } | Space::Tiled { pixels } | Space::Sliced { pixels, .. },
+            ) => Some(pixels),
+            (Sharing::Indi, Space::Counted { columns, .. }) => Some(counted_pixels(resolution, columns)),
+        }
     }
 
     /// Whether the two differ in their sizes alone.
     pub fn is_like(&self, other: &Self) -> bool {
-        let Self { sharing, space, clusters, bounds } = *self;
+        let Self { sharing, space, clusters, bounds, test, slices } = *self;
         (sharing, clusters, bounds) == (other.sharing, other.clusters, other.bounds)
+            && (test, slices) == (other.test, other.slices)
             && discriminant(&space) == discriminant(&other.space)
     }
 }

@@ -1,9 +1,9 @@
 //! The passes of a method of grids: from depth to visible clusters to light lists, clustering by clustering.
 //!
 //! ```text
-//! Depth ──mark, compact──> VisibleClusters ─┬─(bounds)─┐
+//! Depth ──mark, compact──> VisibleClusters ─┬─(bounds)─┐    or mark, sort_tiles, tile_offsets
 //! (all clusters) ──list_clusters────────────┘          │
-//! Lights ──transform, cull, build──────────────────────┴──(count), (offsets), assign──> LightLists
+//! Lights ──transform, cull, build, light_rectangles────┴──(count), (offsets), assign──> LightLists
 //! (cells as boxes) ──build_boxes, where the projection is another──┘
 //! ```
 //!
@@ -13,7 +13,7 @@ use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction};
 use crate::pass::Recorder;
 use crate::passes::{
     Depth, Frame, LightLists, Lights, VisibleClusters, assign, bounds, build_boxes, cull_lights, depth,
-    hierarchy, list_clusters, mark, scan, take_places,
+    hierarchy, list_clusters, mark, scan, sort_tiles, take_places,
 };
 
 /// Records all clusterings; the depth that comes back is what is there with what marking needed beside.
@@ -45,15 +45,19 @@ fn visible_clusters(
     let depth = prepass(r, frame, clustering, depth);
     for view in frame.clusterings[clustering].views.clone() {
         mark::record(r, frame, (clustering, view), depth);
+        if frame.compaction == Compaction::Sort {
+            sort_tiles::record(r, frame, (clustering, view), depth);
+        }
     }
     (depth, compact(r, frame, clustering))
 }
 
-/// Lists the clusters that are marked.
+/// Lists the clusters that are marked, or that sorted tiles have.
 pub fn compact(r: &mut Recorder, frame: &Frame, clustering: usize) -> VisibleClusters {
     match frame.compaction {
         Compaction::Ranks => scan::compact(r, frame, clustering),
         Compaction::Atomic => take_places::record(r, frame, clustering),
+        Compaction::Sort => scan::tile_offsets(r, frame, clustering),
     }
 }
 
@@ -82,6 +86,7 @@ pub fn light_lists(r: &mut Recorder, frame: &Frame, lights: Lights, visible: Vis
     build_boxes::record(r, frame, visible);
     match frame.assigner {
         Assigner::Brute => assign::transform_lights(r, frame, lights, visible),
+        Assigner::Rectangles => assign::light_rectangles(r, frame, lights, visible),
         Assigner::Hierarchy => {
             cull_lights::cull_lights(r, frame, lights, visible);
             hierarchy::build_hierarchy(r, frame, visible);
