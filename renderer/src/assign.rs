@@ -6,15 +6,14 @@
 //! frame, down which each visible cluster goes, and scatter hands out to groups of visible clusters. Rectangles hand each light to
 //! the clusters of the tiles in which it is seen.
 
+mod sorted_tiles;
 mod store;
 
+pub use sorted_tiles::{check_sorted_slices, check_sorted_tiles, sorted_keys, sorted_threads};
 pub use store::{Compaction, ListStore, MOST_CAPPED, MOST_FIXED};
 
 use crate::geometry::SphereTest;
-use crate::gpu_interface::{
-    ASSIGN_WORKGROUP, BLOCK_COLUMNS, LIGHT_BLOCK, RECTANGLE_CHUNK, RECTANGLE_SPLIT, SORT_BITS,
-    SORT_TILE_SLICES, SORT_TILE_WORKGROUP, TREE_WIDTH,
-};
+use crate::gpu_interface::{ASSIGN_WORKGROUP, BLOCK_COLUMNS, LIGHT_BLOCK, SORT_BITS, TREE_WIDTH};
 use crate::nearest;
 use clap::ValueEnum;
 use schemars::JsonSchema;
@@ -220,68 +219,6 @@ pub fn check_one_pass(lists: ListStore, lights: u32) -> Result<(), String> {
     ))
 }
 
-/// Cells that rectangles may hold, at most: each takes a turn of a loop that [`RECTANGLE_SPLIT`] threads share, and lavapipe ends a
-/// shader's loops after 65 535 turns.
-const MOST_RECTANGLE_CELLS: u64 = 60_000 * (RECTANGLE_SPLIT * RECTANGLE_CHUNK) as u64;
-
-/// Why rectangles cannot take lights to so many clusters.
-///
-/// # Errors
-/// Says how many they could.
-pub fn check_rectangles(clusters: u64) -> Result<(), String> {
-    if clusters <= MOST_RECTANGLE_CELLS {
-        return Ok(());
-    }
-    Err(format!(
-        "assign: rectangles take lights to the cells of grids of up to {MOST_RECTANGLE_CELLS}, and this one has {clusters}: use \
-         --assign scatter, or larger clusters"
-    ))
-}
-
-/// Keys of a sorted tile: one for each of its samples, filled up to a power of two.
-pub const fn sorted_keys(pixels: u32, samples: u32) -> u32 {
-    (pixels * pixels * samples).next_power_of_two()
-}
-
-/// Shared memory of a workgroup that sorts so many keys, bytes: the keys, a sum a thread, a bit a slice, and what is counted.
-const fn sorted_bytes(keys: u32) -> u32 {
-    4 * (keys + SORT_TILE_WORKGROUP + SORT_TILE_SLICES / 32 + 4)
-}
-
-/// Most keys of a sorted tile: more have no room in their lower half.
-const MOST_SORTED: u32 = 1 << 16;
-
-/// Why tiles so wide, of so many samples a pixel, cannot be sorted by a workgroup with `shared` bytes of memory.
-///
-/// # Errors
-/// Says how many samples there are, and how many there could be.
-pub fn check_sorted_tiles(pixels: u32, samples: u32, shared: u32) -> Result<(), String> {
-    let all = u64::from(pixels).pow(2) * u64::from(samples);
-    let fits = |keys: &u32| *keys <= MOST_SORTED && sorted_bytes(*keys) <= shared;
-    let most = (0..u32::BITS - 1).map(|power| 1 << power).take_while(fits).last().unwrap_or(0);
-    if all <= most.into() {
-        return Ok(());
-    }
-    Err(format!(
-        "compaction: tiles of {pixels} x {pixels} pixels have {all} samples, and a workgroup sorts up to {most} in the {shared} bytes \
-         that it shares: use smaller tiles, or --compaction ranks"
-    ))
-}
-
-/// Why the tiles of a grid with so many slices cannot be sorted.
-///
-/// # Errors
-/// Says how many slices there may be.
-pub fn check_sorted_slices(slices: u32) -> Result<(), String> {
-    if slices <= SORT_TILE_SLICES {
-        return Ok(());
-    }
-    Err(format!(
-        "compaction: tiles are sorted by up to {SORT_TILE_SLICES} slices, and the grid has {slices}: use larger tiles, or \
-         --compaction ranks"
-    ))
-}
-
 /// Bits of lists take at most this many words.
 const MAX_MASK_WORDS: u64 = 16 << 20;
 
@@ -394,35 +331,11 @@ mod tests {
     }
 
     #[test]
-    fn rectangles_serve_their_own_test_in_grids_whose_cells_a_loop_can_visit() {
+    fn rectangles_serve_their_own_test_alone() {
         for test in [SphereTest::HALF_SPACES, SphereTest::Exact, SphereTest::Box] {
             assert!(!Assigner::Rectangles.serves(test) && Assigner::Brute.serves(test));
         }
         assert!(Assigner::Rectangles.serves(SphereTest::Projected));
-        check_rectangles(MOST_RECTANGLE_CELLS).unwrap();
-        assert!(check_rectangles(MOST_RECTANGLE_CELLS + 1).unwrap_err().contains("--assign scatter"));
-        const { assert!(MOST_RECTANGLE_CELLS / ((RECTANGLE_SPLIT * RECTANGLE_CHUNK) as u64) < 65_535) };
-    }
-
-    #[test]
-    fn tiles_are_sorted_where_their_samples_fit_a_workgroup() {
-        for (pixels, samples, shared) in
-            [(64, 1, 32 << 10), (32, 4, 32 << 10), (32, 1, 16 << 10), (1, 1, 16 << 10)]
-        {
-            check_sorted_tiles(pixels, samples, shared).unwrap();
-        }
-        for (pixels, samples, shared, most) in [
-            (65, 1, 32 << 10, 4096),
-            (33, 4, 32 << 10, 4096),
-            (64, 1, 16 << 10, 2048),
-            (300, 1, 1 << 20, 65_536),
-        ] {
-            let message = check_sorted_tiles(pixels, samples, shared).unwrap_err();
-            assert!(message.contains(&format!("sorts up to {most} in")), "{message}");
-        }
-        check_sorted_slices(SORT_TILE_SLICES).unwrap();
-        assert!(check_sorted_slices(SORT_TILE_SLICES + 1).unwrap_err().contains("larger tiles"));
-        assert_eq!([sorted_keys(28, 1), sorted_keys(32, 4), sorted_keys(1, 1)], [1024, 4096, 1]);
     }
 
     #[test]

@@ -49,12 +49,6 @@ const BLOCK_EXTREMES: u32 = (4 * BLOCK_COLUMNS * BLOCK_COLUMNS - 1) / 3;
 pub const BLOCK_WORDS: u32 = BLOCK_EXTREMES + 6;
 /// Groups of clusters that one thread takes a candidate to.
 pub const GROUP_CHUNK: u32 = 16;
-/// Threads that share the cells which a light is seen in.
-pub const RECTANGLE_SPLIT: u32 = 16;
-/// Cells that a thread takes a light to in one turn.
-pub const RECTANGLE_CHUNK: u32 = 16;
-/// Threads of a workgroup that sorts the samples of a tile.
-pub const SORT_TILE_WORKGROUP: u32 = 128;
 /// Slices of a grid whose tiles are sorted, at most.
 pub const SORT_TILE_SLICES: u32 = 2048;
 /// Threads of a cluster, among which the hierarchy's subtrees are dealt out.
@@ -101,7 +95,7 @@ pub const MEASUREMENT_WORDS: u64 = 4096;
 /// How many 64-bit counters the atemporal run has: as many as [`DeviceCounts`] has fields.
 pub const COUNTER_COUNT: usize = DeviceCounts::NAMES.len();
 
-const CONSTANTS: [(&str, u32); 36] = [
+const CONSTANTS: [(&str, u32); 33] = [
     ("SET_BUFFERS", SET_BUFFERS),
     ("SET_MATERIAL", SET_MATERIAL),
     ("SET_TARGETS", SET_TARGETS),
@@ -116,9 +110,6 @@ const CONSTANTS: [(&str, u32); 36] = [
     ("BLOCK_COLUMNS", BLOCK_COLUMNS),
     ("BLOCK_EXTREMES", BLOCK_EXTREMES),
     ("GROUP_CHUNK", GROUP_CHUNK),
-    ("RECTANGLE_SPLIT", RECTANGLE_SPLIT),
-    ("RECTANGLE_CHUNK", RECTANGLE_CHUNK),
-    ("SORT_TILE_WORKGROUP", SORT_TILE_WORKGROUP),
     ("SORT_TILE_SLICES", SORT_TILE_SLICES),
     ("TREE_SPLIT", TREE_SPLIT),
     ("DISPATCH_LISTS", DISPATCH_LISTS),

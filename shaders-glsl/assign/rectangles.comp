@@ -1,24 +1,83 @@
-// Assignment by rectangles (Tegelaers section 5.2): a light to the visible clusters among the cells in which it is seen. Its cells
-// are dealt out to RECTANGLE_SPLIT threads.
+// Assignment by rectangles (Tegelaers section 5.2): a light to the visible clusters among the cells in which it is seen, which are
+// found as their places are kept:
+//
+//   all clusters have lists  cell by cell
+//   a bit a cluster          row by row of the grid, by the bits of its words
+//   tiles are sorted         tile by tile, from the first of its clusters that is deep enough
+//
+// What is gone through is dealt out to as many threads as the dispatch is high.
 // WRITE_LISTS 0 counts (pass count_rectangles), 1 writes (pass fill_rectangles) where light bits did not fit.
 #version 460
 #include "lib/counters.glsl"
 #include "lib/intersect.glsl"
 #include "lib/list_builder.glsl"
 #include "lib/visible.glsl"
-#extension GL_EXT_control_flow_attributes : require
 
 layout(local_size_x = ASSIGN_WORKGROUP) in;
 
-// Whether a light that is seen in a cell meets what is measured of it, where that is.
-bool meets_measured(uint visible, uint light)
+uint tests = 0u;
+
+// Puts a light on the list of a cluster in which it is seen, where it meets what is measured of that.
+void take_light(uint visible, uint light)
 {
-#if BOUNDS == BOUNDS_CELL
-    return true;
-#else
-    return holds_samples(visible) && meets(bounds_of_visible(visible), volume_of_light(light));
+    if (visible == NO_CLUSTER)
+        return;
+    ++tests;
+#if BOUNDS != BOUNDS_CELL
+    if (!holds_samples(visible) || !meets(bounds_of_visible(visible), volume_of_light(light)))
+        return;
 #endif
+    add_light(visible, light);
 }
+
+#if CLUSTERS == CLUSTERS_ALL
+
+void go_through(LightRectangle seen, uint light)
+{
+    uvec3 size = seen.last - seen.first + 1u;
+    for (uint place = gl_WorkGroupID.y; place < size.x * size.y * size.z; place += gl_NumWorkGroups.y) {
+        uint row = place / size.x, layer = row / size.y;
+        uvec3 cell = seen.first + uvec3(place - row * size.x, row - layer * size.y, layer);
+        take_light(visible_index(linear_cluster(cell)), light);
+    }
+}
+
+#elif COMPACTION == COMPACTION_SORT
+
+void go_through(LightRectangle seen, uint light)
+{
+    uvec2 size = seen.last.xy - seen.first.xy + 1u;
+    for (uint place = gl_WorkGroupID.y; place < size.x * size.y; place += gl_NumWorkGroups.y) {
+        uint row = place / size.x;
+        uvec2 tile = seen.first.xy + uvec2(place - row * size.x, row);
+        uint last = linear_cluster(uvec3(tile, seen.last.z));
+        uint visible = first_in_tile(linear_cluster(uvec3(tile, seen.first.z)));
+        uint end = end_of_tile(last);
+        for (; visible < end && visible_clusters[visible] <= last; ++visible)
+            take_light(visible, light);
+    }
+}
+
+#else
+
+void go_through(LightRectangle seen, uint light)
+{
+    uvec3 size = seen.last - seen.first + 1u;
+    for (uint row = gl_WorkGroupID.y; row < size.y * size.z; row += gl_NumWorkGroups.y) {
+        uint layer = row / size.y;
+        uint first = linear_cluster(seen.first + uvec3(0u, row - layer * size.y, layer));
+        uint last = first + size.x - 1u;
+        for (uint word = first >> 5; word <= last >> 5; ++word) {
+            uint bits = cluster_bits[word];
+            bits &= word == first >> 5 ? 0xFFFFFFFFu << (first & 31u) : 0xFFFFFFFFu;
+            bits &= word == last >> 5 ? 0xFFFFFFFFu >> (31u - (last & 31u)) : 0xFFFFFFFFu;
+            for (; bits != 0u; bits &= bits - 1u)
+                take_light(visible_index(word * 32u + uint(findLSB(bits))), light);
+        }
+    }
+}
+
+#endif
 
 void main()
 {
@@ -26,26 +85,8 @@ void main()
     if (light >= state.candidates)
         return;
     LightRectangle seen = read_rectangle(light);
-    if (any(greaterThan(seen.first, seen.last)))
-        return;
-    uvec3 size = seen.last - seen.first + 1u;
-    uint cells = size.x * size.y * size.z, tests = 0u;
-    // Turns take several cells: lavapipe ends a shader's loops after 65 535 turns of all of them.
-    for (uint turn = gl_WorkGroupID.y; turn < cells; turn += RECTANGLE_SPLIT * RECTANGLE_CHUNK) {
-        [[unroll]] for (uint i = 0u; i < RECTANGLE_CHUNK; ++i) {
-            uint place = turn + i * RECTANGLE_SPLIT;
-            if (place < cells) {
-                uint row = place / size.x;
-                uvec3 cell = seen.first + uvec3(place - row * size.x, row % size.y, row / size.y);
-                uint visible = visible_index(linear_cluster(cell));
-                if (visible != NO_CLUSTER) {
-                    ++tests;
-                    if (meets_measured(visible, light))
-                        add_light(visible, light);
-                }
-            }
-        }
-    }
+    if (all(lessThanEqual(seen.first, seen.last)))
+        go_through(seen, light);
 #if !WRITE_LISTS
     count(COUNTER_INTERSECTION_TESTS, tests);
 #endif

@@ -20,6 +20,28 @@ void publish_meeting(DispatchSize size, bool masked)
     dispatches[DISPATCH_MEET_AGAIN] = size;
 }
 
+#if ASSIGN == ASSIGN_RECTANGLES
+// Among how many threads what a light goes through is dealt out (assign/rectangles.comp): so many that none has more turns than
+// lavapipe lets a shader's loops have, 65 535 of all of them.
+uint rectangle_split(uint visible)
+{
+    const uint MOST_TURNS = 20000u;
+    uvec3 cells = grid.dimensions;
+#if CLUSTERS == CLUSTERS_ALL
+    uint turns = cells.x * cells.y * cells.z;
+#elif COMPACTION == COMPACTION_SORT
+    // The bisection of a tile's clusters takes up to log2 of its slices.
+    uint turns = 16u * cells.x * cells.y;
+#else
+    uint turns = (cells.x / 32u + 3u) * cells.y * cells.z;
+#endif
+    // And a turn for each visible cluster: of few, one thread may meet all.
+    if (CLUSTERS != CLUSTERS_ALL && visible > MOST_TURNS)
+        turns = max(turns, cells.x * cells.y * cells.z);
+    return turns / MOST_TURNS + 1u;
+}
+#endif
+
 // Lists of up to `lights` lights each, for so many visible clusters.
 void publish_lists(uint lights, uint visible)
 {
@@ -46,7 +68,7 @@ void publish_lists(uint lights, uint visible)
 #elif ASSIGN == ASSIGN_HIERARCHY
     publish_meeting(DispatchSize(lists.x, TREE_SPLIT, 1u), masked);
 #elif ASSIGN == ASSIGN_RECTANGLES
-    publish_meeting(DispatchSize((lights + ASSIGN_WORKGROUP - 1u) / ASSIGN_WORKGROUP, RECTANGLE_SPLIT, 1u), masked);
+    publish_meeting(DispatchSize((lights + ASSIGN_WORKGROUP - 1u) / ASSIGN_WORKGROUP, rectangle_split(visible), 1u), masked);
 #endif
 }
 

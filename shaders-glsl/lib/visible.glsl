@@ -15,12 +15,18 @@ void mark_cluster(uint cluster)
 }
 
 #if COMPACTION == COMPACTION_SORT
-// Where a cluster stands among those of its tile, or NO_CLUSTER where it holds no sample.
-uint index_in_tile(uint cluster)
+// Behind the last of the visible clusters of a cluster's tile.
+uint end_of_tile(uint cluster)
 {
     uint tile = cluster % (grid.dimensions.x * grid.dimensions.y);
-    uint end = min(tile_offsets[tile + 1u], grid.visible_capacity);
-    uint low = tile_offsets[tile], high = end;
+    return min(tile_offsets[tile + 1u], grid.visible_capacity);
+}
+
+// Place of the first visible cluster of a cluster's tile that is not nearer than it.
+uint first_in_tile(uint cluster)
+{
+    uint low = tile_offsets[cluster % (grid.dimensions.x * grid.dimensions.y)];
+    uint high = end_of_tile(cluster);
     while (low < high) {
         uint middle = (low + high) / 2u;
         if (visible_clusters[middle] < cluster)
@@ -28,7 +34,14 @@ uint index_in_tile(uint cluster)
         else
             high = middle;
     }
-    return low < end && visible_clusters[low] == cluster ? low : NO_CLUSTER;
+    return low;
+}
+
+// Where a cluster stands among those of its tile, or NO_CLUSTER where it holds no sample.
+uint index_in_tile(uint cluster)
+{
+    uint place = first_in_tile(cluster);
+    return place < end_of_tile(cluster) && visible_clusters[place] == cluster ? place : NO_CLUSTER;
 }
 #endif
 

@@ -2,8 +2,8 @@
 
 use super::FramePlan;
 use crate::assign::{
-    Assigner, ClusterBounds, Clusters, Compaction, ListStore, check_one_pass, check_rectangles,
-    check_sorted_slices, check_sorted_tiles,
+    Assigner, ClusterBounds, Clusters, Compaction, ListStore, check_one_pass, check_sorted_slices,
+    check_sorted_tiles,
 };
 use crate::buffers::ClusteringSizes;
 use crate::config::Config;
@@ -121,15 +121,12 @@ impl Chosen {
         LargestGrid { clusters, ..planned }
     }
 
-    /// Refuses a grid, or tiles of `samples` a pixel, that compaction by sorting or rectangles do not serve on a device with so many
-    /// bytes of memory a workgroup.
+    /// Refuses a grid whose tiles, of `samples` a pixel, cannot be sorted where that is asked for, on a device with so many bytes of
+    /// memory a workgroup.
     ///
     /// # Errors
     /// Says what there is, and what there may be.
     pub fn check_grid(&self, largest: LargestGrid, samples: u32, shared: u32) -> Result<()> {
-        if self.assigner == Assigner::Rectangles {
-            check_rectangles(largest.clusters).map_err(Error::Input)?;
-        }
         if self.sorted_tile > 0 {
             check_sorted_slices(largest.slice_planes.saturating_sub(1)).map_err(Error::Input)?;
             check_sorted_tiles(self.sorted_tile, samples, shared).map_err(Error::Input)?;

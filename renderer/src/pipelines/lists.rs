@@ -2,7 +2,7 @@
 
 use super::{Defines, PipelineStore, ScanPipelines, Variant, Visit, VisitPipelines};
 use crate::Result;
-use crate::assign::{Assigner, Compaction, ListStore, sorted_keys};
+use crate::assign::{Assigner, Compaction, ListStore, sorted_keys, sorted_threads};
 use crate::layouts::Pipeline;
 use std::sync::Arc;
 
@@ -66,10 +66,9 @@ impl Maker<'_> {
         if compaction != Compaction::Sort {
             return Ok(None);
         }
-        let defines = self
-            .defines
-            .with("TILE_PIXELS", sorted_tile)
-            .with("TILE_KEYS", sorted_keys(sorted_tile, samples));
+        let keys = sorted_keys(sorted_tile, samples);
+        let defines = self.defines.with("TILE_PIXELS", sorted_tile).with("TILE_KEYS", keys);
+        let defines = defines.with("TILE_THREADS", sorted_threads(keys));
         let sort_tiles = self.store.compute("cluster/sort_tiles.comp", &defines)?;
         Ok(Some(TilePipelines { sort_tiles, tile_offsets: self.scan("SCAN_TILES")? }))
     }
