@@ -36,6 +36,7 @@ mod still;
 mod surfaces;
 mod sweep;
 mod thesis_ci;
+mod tiles;
 mod tune;
 mod turns;
 mod twins;
