@@ -210,7 +210,7 @@ pub static KINDS: [Kind; 20] = [
         sizes: &["PIXELS"],
         tuned: &[32.0],
         title: "Clustered MM",
-        about: "such tiles in slices as deep as tiles are high, visible clusters with lists",
+        about: "tiles of each view's screen in slices as deep as tiles are high, visible clusters with such lights",
         make: |sizes| {
             let grid = GridMethod::new(Sharing::Indi, Space::Persp { pixels: sizes[0] });
             Method::Grid(GridMethod { test: SphereTest::Projected, slices: SliceLaw::Cubes, ..grid })
