@@ -44,6 +44,11 @@ macro_rules! targets {
     };
 }
 
+/// A target of a G-buffer, which shaders read sample by sample.
+const fn kept(name: &'static str, format: vk::Format) -> TargetInfo {
+    TargetInfo { name, format, usage: vk::ImageUsageFlags::SAMPLED, resolved: false }
+}
+
 targets! {
     /// Radiance towards the camera, linear, without an upper bound; alpha is how much of the pixel surfaces cover.
     Radiance = TargetInfo {
@@ -53,33 +58,13 @@ targets! {
         resolved: true,
     };
     /// Of a G-buffer: base colour, and metalness in alpha.
-    BaseColor = TargetInfo {
-        name: "base_color",
-        format: vk::Format::R8G8B8A8_SRGB,
-        usage: vk::ImageUsageFlags::SAMPLED,
-        resolved: false,
-    };
+    BaseColor = kept("base_color", vk::Format::R8G8B8A8_SRGB);
     /// Of a G-buffer: the shading normal in the world, a point of the octahedron.
-    Normal = TargetInfo {
-        name: "normal",
-        format: vk::Format::R16G16_SNORM,
-        usage: vk::ImageUsageFlags::SAMPLED,
-        resolved: false,
-    };
+    Normal = kept("normal", vk::Format::R16G16_SNORM);
     /// Of a G-buffer: perceptual roughness; 0 says that no light is evaluated.
-    Roughness = TargetInfo {
-        name: "roughness",
-        format: vk::Format::R16_UNORM,
-        usage: vk::ImageUsageFlags::SAMPLED,
-        resolved: false,
-    };
+    Roughness = kept("roughness", vk::Format::R16_UNORM);
     /// Of a G-buffer: the index of the model that is seen.
-    Model = TargetInfo {
-        name: "model",
-        format: vk::Format::R32_UINT,
-        usage: vk::ImageUsageFlags::SAMPLED,
-        resolved: false,
-    };
+    Model = kept("model", vk::Format::R32_UINT);
 }
 
 /// What fills a G-buffer draws into, for methods that ask for the model as well, and for others.
@@ -117,5 +102,17 @@ impl TargetName {
     /// Bytes of a view's texels, one a pixel, at a width and height.
     pub fn view_bytes(self, [width, height]: [u32; 2]) -> u64 {
         texel_bytes(self.info().format) * u64::from(width) * u64::from(height)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gbuffer_takes_ten_bytes_a_sample_and_four_for_models() {
+        let bytes =
+            |with_model| filled(with_model)[1..].iter().map(|name| name.view_bytes([1, 1])).sum::<u64>();
+        assert_eq!((bytes(false), bytes(true)), (10, 14));
     }
 }

@@ -216,6 +216,11 @@ impl Frame<'_> {
             }
     }
 
+    /// What tells the lights of a fragment that is shaded.
+    pub fn light_lists(&self) -> BufferSet {
+        self.list_places() | set(&[B::Lights, B::LightIndices, B::OctreeIndices])
+    }
+
     /// The buffers of a clustering.
     pub fn buffers(&self, clustering: usize) -> BoundBuffers<'_> {
         self.clusterings[clustering].bound(self.slot)

@@ -11,7 +11,6 @@ use super::draws::{self, ColorUse, ScreenPass};
 use super::handles::{Color, GBuffer, LightLists};
 use super::inputs::{Eyes, Frame};
 use super::shade::COUNTED;
-use crate::buffers::{BufferName as B, set};
 use crate::pass::Recorder;
 
 /// Shades what the G-buffers of all views hold, for which `lists` serve.
@@ -26,7 +25,7 @@ pub fn record(r: &mut Recorder, frame: &Frame, surfaces: GBuffer, lists: LightLi
                 radiance: ColorUse::Keep,
                 step: 0,
                 sampled: pipelines.kept,
-                reads: frame.list_places() | set(&[B::Lights, B::LightIndices]),
+                reads: frame.light_lists(),
                 writes: COUNTED,
             };
             draws::screen(r, frame, view, &pass);

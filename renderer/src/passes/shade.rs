@@ -113,7 +113,7 @@ fn shading<'a>(
         colors: &[(TargetName::Radiance, ColorUse::Keep)],
         depth: DepthUse::Test,
         draws,
-        reads: frame.list_places() | set(&[B::Lights, B::LightIndices, B::OctreeIndices]),
+        reads: frame.light_lists(),
         writes: COUNTED,
     }
 }

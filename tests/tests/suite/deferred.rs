@@ -86,8 +86,17 @@ fn compare(forward: &Run, deferred: &Run) {
 
 #[test]
 fn every_family_of_methods() {
-    let names =
-        ["all-lights", "indi-persp-64", "t-e-28", "sc-e-48-40", "encl-ortho-4", "ortiz-16-9-24", "g-20", "m"];
+    let names = [
+        "all-lights",
+        "indi-persp-64",
+        "t-e-28",
+        "sc-e-48-40",
+        "encl-ortho-4",
+        "ortiz-16-9-24",
+        "g-20",
+        "m",
+        "hashed-0.5-3",
+    ];
     check(config("bistro", 1, Marking::Depth, &names));
 }
 
