@@ -128,7 +128,7 @@ fn scene_tree(
 }
 
 /// The octree of each light.
-fn light_trees(lights: &[Sphere], frame: &OctreeFrame) -> Result<Vec<LightTree>, OctreeError> {
+pub(super) fn light_trees(lights: &[Sphere], frame: &OctreeFrame) -> Result<Vec<LightTree>, OctreeError> {
     let budget = BranchBudget::new(MOST_BRANCHES);
     let tree = |light| LightTree::new(&Ball::new(light, frame), frame.depth, &budget);
     let trees: Option<Vec<LightTree>> = lights.par_iter().map(tree).collect();

@@ -34,14 +34,15 @@ impl OctreeFrame {
         }
         let (low, high) = bounds(lights)?;
         let extent = (high - low).max_element();
-        let edge = extent * (1.0 + 2.0 * MARGIN);
+        let margin = (MARGIN * extent).max(settings.room);
+        let edge = extent + 2.0 * margin;
         let depth = depth_for(edge, node);
         if depth > MOST_DEPTH || !edge.is_finite() {
             let least = edge / f64::from(1_u32 << MOST_DEPTH);
             return Err(OctreeError::TooDeep { extent, node, depth, most: MOST_DEPTH, least });
         }
         let start_depth = settings.start_depth.min(depth - 1);
-        Ok(Self { origin: low - MARGIN * extent, node, depth, start_depth })
+        Ok(Self { origin: low - margin, node, depth, start_depth })
     }
 
     /// Deepest cells along an axis.
@@ -59,6 +60,13 @@ impl OctreeFrame {
         let at = self.in_cells(point).floor();
         let inside = at.cmpge(DVec3::ZERO).all() && at.cmplt(DVec3::splat(f64::from(self.side()))).all();
         inside.then(|| at.as_uvec3())
+    }
+
+    /// Whether all of a ball lies in the octree.
+    pub(super) fn holds(&self, light: &Sphere) -> bool {
+        let low = self.in_cells(light.centre - light.radius);
+        let high = self.in_cells(light.centre + light.radius);
+        low.cmpge(DVec3::ZERO).all() && high.cmple(DVec3::splat(f64::from(self.side()))).all()
     }
 
     /// A point of the world with the origin as zero and a deepest cell as unit.

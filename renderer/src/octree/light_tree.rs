@@ -4,7 +4,7 @@
 //! walked together. Branches lie breadth first: those among a branch's children follow each other.
 
 use super::ball::{Ball, Coverage};
-use super::tree::child_cell;
+use super::tree::{Place, child_cell};
 use glam::UVec3;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -76,9 +76,17 @@ impl LightTree {
         Some(Self { root, branches })
     }
 
+    /// Of a light that fills nothing.
+    pub const EMPTY: Self = Self { root: Reach::None, branches: Vec::new() };
+
     /// What the light fills of the root.
     pub fn root(&self) -> Reach {
         self.root
+    }
+
+    /// What it fills of the node at a place.
+    pub fn at(&self, place: Place) -> Reach {
+        place.path().fold(self.root, |reach, child| self.child(reach, child))
     }
 
     /// What it fills of a child (x + 2y + 4z) of a node of which it fills `reach`.

@@ -15,6 +15,7 @@
 mod ball;
 mod bottom_up;
 mod build;
+mod dynamic;
 mod frame;
 mod geometry;
 mod layers;
@@ -29,6 +30,7 @@ mod top_down;
 mod tree;
 
 pub use build::{BuildTimes, Built};
+pub use dynamic::{Dirty, DynamicOctree, UpdateReport};
 pub use frame::{MOST_DEPTH, OctreeFrame};
 pub use geometry::OctreeGeometry;
 pub use linkless::{HashTable, Layer, LinklessOctree};

@@ -43,6 +43,8 @@ pub struct OctreeSettings {
     pub node: f64,
     /// Depth at which lookups begin. At most the depth of the deepest branches, to which it is brought down.
     pub start_depth: u32,
+    /// How far past the lights the octree reaches at least, metres: room in which they may move.
+    pub room: f64,
     /// Seed of the offsets that no neighbour gives.
     pub seed: u64,
     /// Slots per key of a table: 1 for the smallest, more where keys are to be added later.
@@ -61,6 +63,7 @@ impl OctreeSettings {
         Self {
             node,
             start_depth,
+            room: 0.0,
             seed: 23,
             slack: 1.0,
             share_runs: false,

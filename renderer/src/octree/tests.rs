@@ -14,7 +14,7 @@ fn some_lights(most: usize) -> impl Strategy<Value = Vec<Sphere>> {
 }
 
 /// A hundred points in and around the lights' box, the same each time.
-fn points() -> impl Iterator<Item = DVec3> {
+pub(super) fn points() -> impl Iterator<Item = DVec3> {
     (0..100).map(|at| {
         let part = |step: f64| (f64::from(at) * step).fract() - 0.5;
         DVec3::new(part(0.618_034), part(0.754_878), part(0.569_840)) * DVec3::new(14.0, 10.0, 14.0)
@@ -80,7 +80,7 @@ fn merging_takes_equal_leaves_together_and_nothing_else() {
 }
 
 /// `count` lights of radius 1 m, anywhere in a box of this size.
-fn crowd(count: usize, size: DVec3) -> Vec<Sphere> {
+pub(super) fn crowd(count: usize, size: DVec3) -> Vec<Sphere> {
     let mut random = Pcg32::new(1, 2);
     let mut part = || f64::from(random.next_u32()) / f64::from(u32::MAX);
     let mut centre = || DVec3::new(part(), part(), part()) * size;

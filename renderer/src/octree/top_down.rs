@@ -24,10 +24,17 @@ struct Room {
 
 /// The scene's octree of those of its lights; `None` where its leaves would hold more than `most` lights together.
 pub(super) fn join(trees: &[LightTree], most: usize) -> Option<Node> {
-    let parts: Vec<Part> = (0_u32..).zip(trees.iter().map(LightTree::root)).collect();
-    let parts: Vec<Part> = parts.into_iter().filter(|(_, reach)| *reach != Reach::None).collect();
+    let parts = (0_u32..).zip(trees.iter().map(LightTree::root));
+    let parts = parts.filter(|(_, reach)| *reach != Reach::None).collect();
     let room = Room { most, used: AtomicUsize::new(0) };
     node(trees, parts, 0, &room)
+}
+
+/// The node at `depth` of which lights fill `parts`, ascending.
+pub(super) fn below(trees: &[LightTree], mut parts: Vec<Part>, depth: u32) -> Node {
+    parts.retain(|(_, reach)| *reach != Reach::None);
+    let room = Room { most: usize::MAX, used: AtomicUsize::new(0) };
+    node(trees, parts, depth, &room).expect("there is room for any number")
 }
 
 /// The node at `depth` of which lights fill `parts`.

@@ -14,7 +14,9 @@ mod sizes;
 mod slots;
 
 use glam::{U8Vec3, UVec3};
+pub(super) use place::distinct;
 use rand_pcg::Pcg32;
+pub(super) use slots::FreeSlots;
 
 /// How often a size of the table of offsets is tried where keys are few: whether the last of them find a slot is luck then.
 const TRIES: u64 = 4;
@@ -77,6 +79,20 @@ impl PerfectHash {
             }
         }
         Err(HashError::NotFound)
+    }
+
+    /// The hash of distinct keys with tables of given sides, of slots and of offsets; `None` where none was found.
+    pub fn of_sides(keys: &[UVec3], [side, offset_side]: [u32; 2], seed: u64) -> Option<Self> {
+        let holds = (side as usize).pow(3) >= keys.len();
+        let offsets =
+            holds.then(|| place::offsets(keys, side, offset_side, Pcg32::new(seed, 0))).flatten()?;
+        Some(Self { side, offset_side, offsets })
+    }
+
+    /// Where in the table the slot of a key is.
+    pub fn place(&self, key: UVec3) -> UVec3 {
+        let offset = self.offsets[offset_index(key, self.offset_side)];
+        (key % self.side + offset.as_uvec3()) % self.side
     }
 
     /// The slot of a key.

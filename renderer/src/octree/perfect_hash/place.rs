@@ -83,7 +83,7 @@ fn extent(keys: &[UVec3]) -> u64 {
 }
 
 /// Whether no two places are the same: what agrees by both sides no offset parts.
-fn distinct(places: &[UVec3]) -> bool {
+pub(in super::super) fn distinct(places: &[UVec3]) -> bool {
     let mut sorted: Vec<[u32; 3]> = places.iter().map(|place| place.to_array()).collect();
     sorted.sort_unstable();
     sorted.windows(2).all(|pair| pair[0] != pair[1])

@@ -11,7 +11,8 @@ const WORDS: usize = OFFSETS / 64;
 /// The free slots of a cubic table: a bit a slot.
 ///
 /// A row along x stands twice over in its bits, so that what begins anywhere in it and goes around is read in one go.
-pub(super) struct FreeSlots {
+#[derive(Debug, Clone)]
+pub(in super::super) struct FreeSlots {
     side: usize,
     /// Words of a row.
     stride: usize,
@@ -39,10 +40,23 @@ impl FreeSlots {
 
     /// Takes a free slot.
     pub fn take(&mut self, slot: UVec3) {
+        self.flip(slot);
         let row = self.row(slot.y, slot.z);
         self.in_row[row] -= 1;
+    }
+
+    /// Gives a slot back that was taken.
+    pub fn give(&mut self, slot: UVec3) {
+        self.flip(slot);
+        let row = self.row(slot.y, slot.z);
+        self.in_row[row] += 1;
+    }
+
+    /// Turns a slot's bits around.
+    fn flip(&mut self, slot: UVec3) {
+        let row = self.row(slot.y, slot.z);
         for x in [slot.x as usize, slot.x as usize + self.side] {
-            self.bits[row * self.stride + x / 64] &= !(1 << (x % 64));
+            self.bits[row * self.stride + x / 64] ^= 1 << (x % 64);
         }
     }
 
