@@ -95,7 +95,8 @@ fn viewpoint(args: &Args) -> Result<Viewpoint<'_>> {
 
 /// One frame, one method, one lighting, nothing timed.
 fn configuration(args: &Args) -> Result<Config> {
-    let Layer { frames, runs, exr, trace, scopes, methods, lights, test, .. } = &args.layer;
+    let Layer { frames, runs, exr, trace, scopes, methods, lights, test, scenes, resolutions, .. } =
+        &args.layer;
     let of_replay = [
         ("frames", frames.is_some()),
         ("runs", runs.is_some()),
@@ -107,13 +108,21 @@ fn configuration(args: &Args) -> Result<Config> {
         return Err(Error::input(format!("a still is one frame that is not timed: leave --{flag} out")));
     }
     let several = |count: Option<usize>| count.is_some_and(|count| count > 1);
-    let axes = [methods.as_ref().map(Vec::len), lights.as_ref().map(Vec::len), test.as_ref().map(Vec::len)];
+    let axes = [
+        scenes.as_ref().map(Vec::len),
+        resolutions.as_ref().map(Vec::len),
+        methods.as_ref().map(Vec::len),
+        lights.as_ref().map(Vec::len),
+        test.as_ref().map(Vec::len),
+    ];
     if axes.into_iter().any(several) {
         return Err(Error::input(
-            "a still shows one method under one lighting with one test: give --method, --lights and --test once",
+            "a still shows one scene in one resolution, one method under one lighting with one test: give --scene, \
+             --resolution, --method, --lights and --test once",
         ));
     }
-    let mut config = Config::resolve(args.config.as_deref(), args.layer.clone())?;
+    // Of what a file has several of, the first.
+    let mut config = Config::resolve(args.config.as_deref(), args.layer.clone())?.by_scene().swap_remove(0);
     config.methods.truncate(1);
     config.lights.truncate(1);
     config.assign.truncate(1);

@@ -69,9 +69,33 @@ fn every_resolution_is_replayed_and_has_a_directory_of_its_own() {
         let place = cells(0).position(|name| name == "fragments_shaded").unwrap();
         cells(1).nth(place).unwrap().parse::<u32>().unwrap()
     };
-    // Two eyes of so many pixels, of which the sky is none.
+    // Two eyes of so many pixels, less the sky's, and glass before what is seen.
     let (wide, square) = (shaded("street-48x32"), shaded("street-24x24"));
-    assert!((1500..=2 * 48 * 32).contains(&wide) && (500..=2 * 24 * 24).contains(&square), "{wide} {square}");
+    assert!((2500..3600).contains(&wide) && (900..1400).contains(&square), "{wide} {square}");
+}
+
+#[test]
+fn a_still_of_a_sweep_is_of_its_first_scene_in_its_first_resolution() {
+    let directory = tempfile::tempdir().unwrap();
+    let (file, out) = (directory.path().join("sweep.json"), directory.path().join("out"));
+    let scenes = r#"{"scene": "hall", "recording": "hall", "lights": [{"count": 5}, {"count": 9}]},
+        {"scene": "street", "recording": "bistro"}"#;
+    let text = format!(
+        r#"{{"scenes": [{scenes}], "resolutions": [[24, 16], [8, 8]], "methods": ["indi-ortho-4"]}}"#
+    );
+    fs::write(&file, text).unwrap();
+    let still = || {
+        let mut command = manylight();
+        command.args(["still", "--frame", "1100", "--config"]).arg(&file).arg("--out").arg(&out);
+        command
+    };
+    // A frame that bistro lacks.
+    printed(&mut still());
+    let picture = fs::read(out.join("001100_indi-ortho-4_mono.png")).unwrap();
+    let side = |at: usize| u32::from_be_bytes(picture[at..at + 4].try_into().unwrap());
+    assert_eq!([side(16), side(20)], [24, 16]);
+    let message = refused_with(still().args(["--resolutions", "8x8,9x9"]), 2);
+    assert!(message.contains("one scene in one resolution"), "{message}");
 }
 
 #[test]

@@ -36,11 +36,10 @@ pub fn run(args: Args, console: &Console) -> Result<()> {
     if config.runs.is_none() {
         return Err(Error::input("runs: nothing is timed in 0 runs: give --runs 1 or more"));
     }
-    if config.scenes.len() > 1 {
-        return Err(Error::input(
-            "scenes: one scene at a time is measured here: give --scene and --recording",
-        ));
-    }
+    let [config] = <[Config; 1]>::try_from(config.by_scene()).map_err(|_| {
+        let message = "scenes: one scene in one resolution at a time is measured here: give --scene, --recording and --resolution";
+        Error::input(message)
+    })?;
     let interrupt = Interrupt::install()?;
     let inputs = Inputs::load(&config)?;
     inputs.notes(&config.methods).for_each(|note| console.note(&note));
