@@ -69,13 +69,19 @@ fn runs(away: [f64; 3], lights: Lights, stereo: bool) -> Vec<Run> {
         lights_file: (lights == Lights::File).then(|| file("lights.csv")),
         scene_lights: lights == Lights::Scene,
         attenuation: Attenuation::Stp,
-        methods: methods(&[&METHODS[..], &["g-6"]].concat()),
+        methods: methods(&names()),
         resolution: [64, 40],
         frames: FrameRange { first: 0, end: Some(1), step: 1 },
         runs: 0.into(),
         exr: ExrFrames::All,
         ..Config::default()
     })
+}
+
+/// The usual methods, and those that lie in the world by sizes that suit: the least of these lights would have nodes of millimetres.
+fn names() -> Vec<&'static str> {
+    let usual = METHODS.into_iter().filter(|name| !methods(&[name])[0].has_octree());
+    usual.chain(["g-6", "hashed-1m-3"]).collect()
 }
 
 fn all_equal_brute_force(runs: &[Run], about: &str) {

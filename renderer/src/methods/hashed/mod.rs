@@ -7,9 +7,9 @@
 //!                     position of a sample ──branch by branch──> its leaf ──> its list (shading)
 //! ```
 //!
-//! [`HashedMethod::settings`] says how large nodes are, [`reaches`] what the tree is built of, [`data`] how shaders see it. The
+//! [`HashedMethod::settings`] says how large nodes are, [`reaches`] what the tree is built of, [`data()`] how shaders see it. The
 //! engine builds it and hands its tables on; `lookup/hashed.glsl` finds the leaf of a sample, as
-//! [`LinklessOctree::lights_at`] does on the host.
+//! [`LinklessOctree::lights_at`](crate::octree::LinklessOctree::lights_at) does on the host.
 
 mod data;
 mod geometry;
