@@ -149,6 +149,7 @@ fn read_run(Found { name, directory, manifest: file }: &Found) -> Result<Run> {
         distributions,
         most_fragments,
         memory: saved_memory(directory)?,
+        octree: tables::read_octree(directory)?,
         pictures,
         lists_all: manifest::lists_all(file, method),
         groups,

@@ -36,6 +36,7 @@ mod paper;
 mod pictures;
 mod results;
 mod tables;
+mod tegelaers;
 mod way;
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::way::Way;
 use crate::extent::Extent;
 use crate::machine::{Conditions, Machine};
 use crate::methods::{Method, Sharing, Space};
-use crate::output::{ColumnTimes, FrameRow, MemoryRow, Older};
+use crate::output::{ColumnTimes, FrameRow, MemoryRow, OctreeRow, Older};
 use crate::stats::{Measured, Samples};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -19,6 +19,8 @@ pub mod metric {
     pub const COMPUTATIONS: &str = "lighting_computations";
     /// Sphere against cluster tests, over clusterings.
     pub const TESTS: &str = "intersection_tests";
+    /// Invocations of the shading pass, hidden ones too.
+    pub const FRAGMENTS: &str = "fragments_shaded";
     /// How much the depth of the first view jumps from pixel to pixel.
     pub const DISCONTINUITY: &str = "depth_discontinuity";
     /// GPU time of the frame, milliseconds.
@@ -57,7 +59,7 @@ pub struct Setting {
     pub recording: String,
     /// Rendering cameras.
     pub views: u32,
-    /// Width and height of each view, pixels.
+    /// Width and height of each view, pixels; [`Setting::SEVERAL`] of runs that differ in it.
     pub resolution: [u32; 2],
     /// Samples a pixel.
     pub msaa: u32,
@@ -121,12 +123,23 @@ pub struct Run {
     pub most_fragments: Option<u64>,
     /// `memory.csv`.
     pub memory: Vec<MemoryRow>,
+    /// The octree that it built first; `None` of other methods.
+    pub octree: Option<BuiltOctree>,
     /// Rendered frames.
     pub pictures: Vec<Picture>,
     /// Whether all groups have lists, not those alone that hold a fragment.
     pub lists_all: bool,
     /// Groups by lights, of the frames that have pictures.
     pub groups: Vec<FrameGroups>,
+}
+
+/// An octree over the lights of a frame.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct BuiltOctree {
+    /// Its tables by depth.
+    pub tables: Vec<OctreeRow>,
+    /// What the host took for each step of building, in order, milliseconds: the least over all frames that were timed and built one.
+    pub steps: Vec<(String, f64)>,
 }
 
 /// Groups of one frame that have lists, by how many lights these hold.
@@ -226,6 +239,26 @@ pub fn lightings<'a>(runs: impl IntoIterator<Item = &'a Run>) -> Vec<LightingNam
 }
 
 impl Setting {
+    /// In the place of a resolution, where runs differ in it.
+    pub const SEVERAL: [u32; 2] = [0, 0];
+
+    /// Settings that differ in scene, recording, resolution and options, as one, with the options that all have; that of nothing where
+    /// there are none.
+    pub fn together<'a>(settings: impl Iterator<Item = &'a Self> + Clone) -> Self {
+        let joined = |of: fn(&Self) -> &str| {
+            let mut names: Vec<&str> = settings.clone().map(of).collect();
+            names.dedup();
+            names.join(" and ")
+        };
+        let (scene, recording) = (joined(|setting| &setting.scene), joined(|setting| &setting.recording));
+        let Some(first) = settings.clone().next() else { return Self::default() };
+        let is_shared = settings.clone().all(|setting| setting.resolution == first.resolution);
+        let resolution = if is_shared { first.resolution } else { Self::SEVERAL };
+        let mut together = Self { scene, recording, resolution, ..first.clone() };
+        together.options.retain(|option| settings.clone().all(|setting| setting.options.contains(option)));
+        together
+    }
+
     /// The same setting by another way.
     pub fn by(&self, way: &Way) -> Self {
         Self { way: way.clone(), ..self.clone() }
@@ -239,13 +272,16 @@ impl Setting {
 
 impl std::fmt::Display for Setting {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let [width, height] = self.resolution;
         let views = match self.views {
             1 => "mono".to_owned(),
             2 => "stereo".to_owned(),
             views => format!("{views} views"),
         };
-        write!(f, "{}, recording {}, {views}, {width} × {height}", self.scene, self.recording)?;
+        write!(f, "{}, recording {}, {views}, ", self.scene, self.recording)?;
+        match self.resolution {
+            Self::SEVERAL => f.write_str("several resolutions")?,
+            [width, height] => write!(f, "{width} × {height}")?,
+        }
         if self.is_stereo() {
             f.write_str(" a view")?;
         }
@@ -368,6 +404,7 @@ mod tests {
             metric::INDICES,
             metric::COMPUTATIONS,
             metric::TESTS,
+            metric::FRAGMENTS,
             metric::DISCONTINUITY,
             metric::FRAME,
             metric::CLUSTER,

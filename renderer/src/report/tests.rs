@@ -183,7 +183,7 @@ fn the_table_of_runs_has_every_metric() {
     let mut csv = vec![];
     page::write_runs_csv(&mut csv, &set(vec![run("indi-ortho-4", 1, 1000, measured)])).unwrap();
     let text = String::from_utf8(csv).unwrap();
-    assert_eq!(text.lines().count(), 1 + 11);
+    assert_eq!(text.lines().count(), 1 + 12);
     let line = text.lines().find(|line| line.contains("visible_clusters")).unwrap();
     assert!(line.ends_with("visible_clusters,516,660,728,238.461737,,"), "{line}");
 }

@@ -42,6 +42,11 @@ impl Way {
         found.map_or_else(String::new, |(axis, value)| value.clone().unwrap_or_else(|| own(axis, method)))
     }
 
+    /// The value on the axis of a name where it is not the thesis's own.
+    pub fn other(&self, name: &str) -> Option<&str> {
+        axes().zip(&self.values).find(|(axis, _)| axis.name == name)?.1.as_deref()
+    }
+
     /// The same way, but for the axis of a name: on that it is the thesis's own.
     pub fn without(&self, name: &str) -> Self {
         let kept =

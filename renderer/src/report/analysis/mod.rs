@@ -18,7 +18,7 @@ mod ranking;
 mod spread;
 
 pub use growth::{Fit, bars as slopes_and_offsets, fits, lines};
-pub use ranking::{anywhere, table as classes, together};
+pub use ranking::{anywhere, table as classes};
 pub use spread::{bar, chart as times, deviation, relative};
 
 use super::chart::{Bar, Chart, Key, Look, Plot, palette::Color};

@@ -29,7 +29,7 @@ struct Criterion<'a> {
 pub fn table(set: &ResultSet) -> Table {
     let mut rows = vec![];
     for group in groups(set) {
-        let name = together(&group).to_string();
+        let name = Setting::together(group.iter().copied()).to_string();
         for Criterion { name: by, entries } in criteria(set, &group) {
             let ranked = worst(entries);
             if ranked.len() > 1 {
@@ -69,17 +69,6 @@ fn groups(set: &ResultSet) -> Vec<Vec<&Setting>> {
 /// The setting without what tells scenes apart.
 pub fn anywhere(setting: &Setting) -> Setting {
     Setting { scene: String::new(), recording: String::new(), hashes: Default::default(), ..setting.clone() }
-}
-
-/// The settings of a group, which is not empty, as one.
-pub fn together(group: &[&Setting]) -> Setting {
-    let joined = |of: fn(&Setting) -> &str| {
-        let mut names: Vec<&str> = group.iter().map(|setting| of(setting)).collect();
-        names.dedup();
-        names.join(" and ")
-    };
-    let scene = joined(|setting| &setting.scene);
-    Setting { scene, recording: joined(|setting| &setting.recording), ..group[0].clone() }
 }
 
 fn criteria<'a>(set: &'a ResultSet, group: &[&'a Setting]) -> Vec<Criterion<'a>> {

@@ -8,7 +8,7 @@
 
 use crate::geometry::CellShape;
 use crate::methods::Method;
-use crate::report::analysis::{anywhere, together};
+use crate::report::analysis::anywhere;
 use crate::report::claim::by_way;
 use crate::report::format::grouped;
 use crate::report::results::{ResultSet, Run, Setting, method_name};
@@ -117,7 +117,7 @@ impl<'a> Evaluation<'a> {
             let runs = by_test.iter().copied().filter(|run| is_usual(run, &test)).collect();
             Scene { setting, runs, by_test }
         };
-        let setting = together(&settings.iter().collect::<Vec<_>>());
+        let setting = Setting::together(settings.iter());
         Self { setting, scenes: settings.into_iter().map(scene).collect(), test: test.clone() }
     }
 

@@ -27,7 +27,9 @@ pub const PAPER: Paper = Paper {
 
 /// Grids that every view has of its own or that enclose all, and what else no other paper's page is about.
 fn measures(method: Method) -> bool {
-    !super::enhuber::measures(method) && !super::ortiz::measures(method)
+    let others = [super::enhuber::measures, super::ortiz::measures, super::tegelaers::measures];
+    // Whoever compares with all lights does so beside methods of their own.
+    method != Method::AllLights && !others.iter().any(|measures| measures(method))
 }
 
 /// Whether the scene is that of the thesis's appendix C; else it is that of chapter 6.

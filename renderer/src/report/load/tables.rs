@@ -2,10 +2,11 @@
 
 use crate::Result;
 use crate::output::{
-    ClusteringRow, FRAGMENTS_PER_CLUSTER, HistogramRow, LIGHTS_PER_CLUSTER, each_row, saved_frames,
+    ClusteringRow, FRAGMENTS_PER_CLUSTER, HistogramRow, LIGHTS_PER_CLUSTER, OctreeRow, Row, TimingRow,
+    each_row, saved_frames, stage_kind,
 };
 use crate::report::bins;
-use crate::report::results::{Distribution, FrameGroups, Frames};
+use crate::report::results::{BuiltOctree, Distribution, FrameGroups, Frames};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -23,6 +24,38 @@ pub fn read_grid(directory: &Path) -> Result<Option<[u32; 3]>> {
         Ok(())
     })?;
     Ok(grid)
+}
+
+/// Stages of building an octree; those of the host alone follow it.
+const BUILDING: &str = "frame/octree/";
+/// The one of them that the device takes part in.
+const UPLOAD: &str = "upload";
+
+/// The first octree of the run, with what building one takes; `None` where there is none.
+pub fn read_octree(directory: &Path) -> Result<Option<BuiltOctree>> {
+    if !directory.join(OctreeRow::FILE).is_file() {
+        return Ok(None);
+    }
+    let mut built = BuiltOctree::default();
+    each_row(directory, |_, row: OctreeRow| {
+        if built.tables.first().is_none_or(|first| first.frame == row.frame) {
+            built.tables.push(row);
+        }
+        Ok(())
+    })?;
+    each_row(directory, |_, row: TimingRow| {
+        let kind = stage_kind(&row.stage);
+        let step = kind.strip_prefix(BUILDING).filter(|step| !step.starts_with(UPLOAD));
+        // In frames that build none, no step takes time.
+        if let Some(step) = step.filter(|_| row.cpu_ms > 0.0) {
+            match built.steps.iter_mut().find(|(known, _)| known == step) {
+                Some((_, least)) => *least = least.min(row.cpu_ms),
+                None => built.steps.push((step.to_owned(), row.cpu_ms)),
+            }
+        }
+        Ok(())
+    })?;
+    Ok(Some(built))
 }
 
 /// Groups that have lists by lights, of some frames, ascending.
