@@ -54,6 +54,14 @@ impl Way {
         Self { values: axes().zip(&self.values).map(kept).collect() }
     }
 
+    /// The same way, but for the axis of a name: on that it is another than the thesis's own.
+    #[cfg(test)]
+    pub fn with(mut self, name: &str, value: &str) -> Self {
+        let place = axes().position(|axis| axis.name == name).expect("an axis of that name");
+        self.values[place] = Some(value.to_owned());
+        self
+    }
+
     /// A way by the names of its first two axes.
     #[cfg(test)]
     pub fn named(assign: &str, test: &str, method: Method) -> Self {

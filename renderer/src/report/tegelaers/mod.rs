@@ -18,6 +18,9 @@ mod octree;
 mod ratios;
 mod tables;
 
+#[cfg(test)]
+mod testing;
+
 pub use evaluation::measures;
 
 use super::paper::{Paper, Section};

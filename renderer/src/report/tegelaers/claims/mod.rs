@@ -9,6 +9,9 @@ mod octree;
 mod pipelines;
 mod places;
 
+#[cfg(test)]
+mod tests;
+
 use crate::report::claim::Stated;
 
 /// Every claim, in order.

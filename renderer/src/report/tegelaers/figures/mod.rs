@@ -222,3 +222,6 @@ const TIME_BY_DEPTH: Wanted<'static> = Wanted {
     caption: "Mean GPU time of a frame (ms), a line a starting depth, under the most lights and with the most pixels.",
     missing: "needs temporal runs of hashed with two sizes of nodes at least, in radii",
 };
+
+#[cfg(test)]
+mod tests;

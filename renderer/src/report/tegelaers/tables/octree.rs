@@ -104,3 +104,29 @@ fn by_depth(_: &Run, built: &BuiltOctree) -> Cells {
     };
     built.depths().into_iter().map(row).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::tegelaers::testing::{costs, everything};
+    use crate::report::testing::set;
+
+    #[test]
+    fn steps_and_layers_are_those_of_each_octree() {
+        let set = set(everything(costs));
+        let evaluations = Evaluation::all(&set);
+        let building = building(&evaluations);
+        assert_eq!(building.rows.len(), 7 * 3, "a row a method and set");
+        let quarter =
+            building.rows.iter().find(|row| row.labels[1..] == ["Hashed 0.25 3", "1200 lights"]).unwrap();
+        let ms = 64.0 * 1200.0;
+        assert_eq!(quarter.numbers, [None, Some(ms), None, None, Some(3.0 * ms), Some(4.0 * ms)]);
+        let layers = layers(&evaluations);
+        assert_eq!(layers.rows.len(), 7 * 3, "a row a method and depth");
+        let deepest = layers.rows.iter().rfind(|row| row.labels[1] == "Hashed 1 3").unwrap();
+        assert_eq!(deepest.labels[2..], ["1200 lights", "8"]);
+        let kib = (1000.0 + 4.0 * 250.0) * 1200.0 / 1024.0;
+        let numbers = [None, None, None, None, Some(1200.0), Some(100.0), Some(50.0), Some(kib)];
+        assert_eq!(deepest.numbers, numbers);
+    }
+}

@@ -41,3 +41,35 @@ fn rows(evaluation: &Evaluation<'_>) -> Vec<Row> {
     };
     ALL.iter().flat_map(of_ratio).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::tegelaers::testing::{costs, elsewhere, everything};
+    use crate::report::testing::set;
+
+    #[test]
+    fn ratios_stand_beside_those_that_are_printed() {
+        let street = everything(costs);
+        let hall = street.clone().into_iter().map(elsewhere);
+        let set = set(hall.chain(street.clone()).collect());
+        let table = table(&Evaluation::all(&set));
+        assert_eq!(table.rows.len(), 2 * ALL.len());
+        for row in &table.rows {
+            let columns: usize = table.groups.iter().map(|(_, columns)| columns.len()).sum();
+            assert_eq!((row.labels.len(), row.numbers.len()), (table.labels.len(), columns));
+        }
+        let few = &table.rows[0];
+        let words = [
+            "lighting computations",
+            "Naive",
+            "Tiled MM 32",
+            "deferred",
+            "few: 60 lights, 160 × 160",
+            "hall (hall)",
+        ];
+        assert_eq!(few.labels, words);
+        assert!((few.numbers[2].unwrap() - 60.0 / 33.0).abs() < 1e-9);
+        assert_eq!(few.numbers[3..], [Some(1.5), Some(2.0)]);
+    }
+}
