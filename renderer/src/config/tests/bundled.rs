@@ -109,6 +109,28 @@ fn bundled_evaluations_are_the_steps_of_enhuber() {
     }
 }
 
+#[test]
+fn bundled_sweeps_of_tegelaers_have_his_sets_and_resolutions() {
+    // Of three scenes, the sides of the squares; of each, the runs of all.
+    for (file, sides, runs) in [("tegelaers", 7, 1356), ("tegelaers-ci", 3, 278), ("tegelaers-many", 1, 126)]
+    {
+        let config = Config::resolve(Some(&repository(&format!("configs/{file}.json"))), Layer::default());
+        let parts = crate::sweep::parts(&config.unwrap()).unwrap();
+        assert_eq!(parts.len(), 3 * sides, "{file}");
+        assert_eq!(parts.iter().map(|part| part.runs.len()).sum::<usize>(), runs, "{file}");
+        for part in &parts {
+            let Config { resolution: [width, height], scene, lights, .. } = &part.config;
+            assert_eq!(width, height, "{file}");
+            let base = lights[0].count;
+            assert!(
+                file == "tegelaers-many"
+                    || [("street", 58), ("hall", 70), ("city", 65)].contains(&(scene.as_str(), base))
+            );
+            assert!(lights.iter().all(|lighting| lighting.count.is_multiple_of(base)), "{file}: {scene}");
+        }
+    }
+}
+
 /// `MANYLIGHT_BLESS=1` rewrites the schema.
 #[test]
 fn the_schema_is_in_step() {
