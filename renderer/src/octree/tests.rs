@@ -1,6 +1,6 @@
 //! Octrees of random lights against the lights themselves.
 
-use super::tree::Node;
+use super::tree::{Node, Place};
 use super::*;
 use glam::{DVec3, UVec3};
 use proptest::prelude::*;
@@ -98,6 +98,32 @@ fn the_same_bytes_on_any_number_of_cores() {
     assert_eq!(one, build(1));
     assert_eq!(one, build(2));
     assert_eq!(one, build(5));
+}
+
+/// The lights of the leaf that holds a deepest cell, down the tree itself.
+fn leaf_of(tree: &Node, depth: u32, cell: UVec3) -> &[u32] {
+    fn below(node: &Node, child: usize) -> &Node {
+        node.children()[child]
+    }
+    Place { depth, cell }.path().fold(tree, below).lights().unwrap()
+}
+
+#[test]
+fn a_million_lookups_are_those_of_the_tree() {
+    let size = DVec3::new(12.0, 4.0, 12.0);
+    let lights = crowd(40, size);
+    let settings = OctreeSettings::new(0.3, 3);
+    let octree = built(&lights, &settings);
+    let trees = build::light_trees(&lights, &octree.frame).unwrap();
+    let tree = top_down::join(&trees, usize::MAX).unwrap();
+    let mut random = Pcg32::new(3, 4);
+    let mut part = || f64::from(random.next_u32()) / f64::from(u32::MAX);
+    for _ in 0..1_000_000 {
+        let point = DVec3::new(part(), part(), part()) * (size + 2.0) - 1.0;
+        let cell = octree.frame.cell(point);
+        let expected = cell.map_or(&[][..], |cell| leaf_of(&tree, octree.frame.depth, cell));
+        assert_eq!(octree.lights_at(point), expected, "{point}");
+    }
 }
 
 #[test]
