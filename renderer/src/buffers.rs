@@ -49,7 +49,7 @@ pub use sizes::ClusteringSizes;
 use crate::gpu_interface::{
     BLOCK_WORDS, COUNTER_COUNT, Candidate, ClusterBox, ClusterGroup, ClusteringState, DISPATCH_COUNT,
     DispatchSize, GridData, InstanceData, LightData, LightNode, LightRectangle, LightVolume,
-    MEASUREMENT_WORDS, OctreeData, PixelData,
+    MEASUREMENT_WORDS, OctreeData, PixelData, SpotData,
 };
 use crate::measure::{OctreeSizes, Purpose};
 use info::{buffer, bytes};
@@ -250,6 +250,11 @@ buffers! {
     Lights = buffer("lights", Owner::Engine)
         .texels("light", Element::Struct(LightData::INFO))
         .sized(|s| bytes::<LightData>(s.lights.into()))
+        .serving(Purpose::Lights);
+    /// Cones of the lights of the frame, where some have one.
+    Spots = buffer("spots", Owner::Engine)
+        .texels("spot", Element::Struct(SpotData::INFO))
+        .sized(|s| bytes::<SpotData>(s.cones()))
         .serving(Purpose::Lights);
     /// Boxes around the scene's models, in drawing order.
     ModelBoxes = buffer("model_boxes", Owner::Scene).storage("ModelBox model_boxes[]");

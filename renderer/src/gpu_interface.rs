@@ -6,7 +6,7 @@ mod structs;
 pub use structs::{
     Candidate, ClusterBox, ClusterGroup, ClusteringState, DispatchSize, DrawCommand, DrawCounts, GridData,
     HashData, InstanceData, LightData, LightNode, LightRectangle, LightVolume, MaterialData, ModelBox,
-    OctreeData, OctreeLayer, PixelData, Push, ViewData,
+    OctreeData, OctreeLayer, PixelData, Push, SpotData, ViewData,
 };
 
 use crate::geometry::VolumeKind;
@@ -141,7 +141,7 @@ const TEXTURE_SLOTS: [(&str, TextureSlot); 5] = [
 ];
 
 /// Every shared struct; one comes after those it contains.
-const STRUCTS: [StructInfo; 21] = [
+const STRUCTS: [StructInfo; 22] = [
     ViewData::INFO,
     GridData::INFO,
     HashData::INFO,
@@ -152,6 +152,7 @@ const STRUCTS: [StructInfo; 21] = [
     LightVolume::INFO,
     LightRectangle::INFO,
     LightData::INFO,
+    SpotData::INFO,
     MaterialData::INFO,
     InstanceData::INFO,
     ModelBox::INFO,

@@ -4,8 +4,8 @@ use crate::config::Config;
 use crate::extent::Extent;
 use crate::lights::rain::RainParameters;
 use crate::lights::{
-    self, Corners, Generated, GeneratorKind, LightSource, Lighting, LightsFile, LightsFrom, PointLight,
-    StaticLights, Surroundings,
+    self, Corners, Generated, GeneratorKind, Light, LightSource, LightTally, Lighting, LightsFile,
+    LightsFrom, StaticLights, Surroundings,
 };
 use crate::methods::{Method, model};
 use crate::recording::{self, Recording};
@@ -22,7 +22,7 @@ pub struct Inputs {
     /// Hexadecimal SHA-256 of the file of static lights, where they come from one.
     pub lights_sha256: Option<String>,
     /// Lights of a file or of the scene; `None` where they are made.
-    static_lights: Option<Vec<PointLight>>,
+    static_lights: Option<Vec<Light>>,
     /// Whether it rains.
     rains: bool,
 }
@@ -31,7 +31,7 @@ impl Inputs {
     /// Loads or generates what the config names.
     ///
     /// # Errors
-    /// A missing or broken file; a scene without point lights where they were asked for; a recording without rain whose
+    /// A missing or broken file; a scene without lights where they were asked for; a recording without rain whose
     /// box was.
     pub fn load(config: &Config) -> Result<Self> {
         Self::load_with(config, recording::load(&config.recording)?, None)
@@ -66,8 +66,8 @@ impl Inputs {
     /// Lights that do not fit into memory; rain whose parameters are out of range.
     pub fn light_source(&self, lights: &LightsFrom) -> Result<Box<dyn LightSource>> {
         match (lights, &self.static_lights) {
-            (LightsFrom::Generated(generator, lighting), _) => {
-                generator.lights(lighting, &self.surroundings())
+            (LightsFrom::Generated(generator, lighting, spots), _) => {
+                generator.lights(lighting, *spots, &self.surroundings())
             }
             (_, Some(lights)) => Ok(Box::new(StaticLights(lights.clone()))),
             (_, None) => Err(Error::Internal("static lights were not loaded".into())),
@@ -85,8 +85,8 @@ impl Inputs {
     /// A number of lights that cannot be made.
     pub fn generated(&self, lights: &LightsFrom) -> Result<Option<Generated>> {
         match lights {
-            LightsFrom::Generated(generator, lighting) => {
-                generator.generated(lighting, &self.surroundings()).map(Some)
+            LightsFrom::Generated(generator, lighting, spots) => {
+                generator.generated(lighting, *spots, &self.surroundings()).map(Some)
             }
             LightsFrom::File(_) | LightsFrom::Scene => Ok(None),
         }
@@ -126,14 +126,16 @@ impl Inputs {
         self.rain_note().into_iter().chain(sheared)
     }
 
-    /// How many lights a source of lights has.
+    /// How many lights a source of lights has, and whether it has spots.
     ///
     /// # Errors
     /// The lights were not loaded.
-    pub fn light_count(&self, lights: &LightsFrom) -> Result<u32> {
+    pub fn light_tally(&self, lights: &LightsFrom) -> Result<LightTally> {
         match (lights, &self.static_lights) {
-            (LightsFrom::Generated(_, lighting), _) => Ok(lighting.count),
-            (_, Some(lights)) => Ok(lights.len() as u32),
+            (LightsFrom::Generated(_, lighting, spots), _) => {
+                Ok(LightTally { count: lighting.count, spots: spots.is_any() })
+            }
+            (_, Some(lights)) => Ok(LightTally::of(lights)),
             (_, None) => Err(Error::Internal("static lights were not loaded".into())),
         }
     }
@@ -151,8 +153,8 @@ pub fn load_scene(name_or_path: &str, strict: bool) -> Result<Scene> {
     }
 }
 
-/// The scene's point lights with the cut-off and near radius that rain has by default.
-fn scene_lights(scene: &Scene) -> Result<Vec<PointLight>> {
+/// The scene's lights with the cut-off and near radius that rain has by default.
+fn scene_lights(scene: &Scene) -> Result<Vec<Light>> {
     let Lighting { cutoff, r0, .. } = Lighting::with_count(1);
     lights::from_scene(&scene.lights, cutoff, r0)
 }

@@ -1,4 +1,4 @@
-// Point lights and their attenuation (Gelderen appendix A, Tegelaers section 3.1). ATTENUATION is the position in the table of the host's enum.
+// Point and spot lights and their attenuation (Gelderen appendix A, Tegelaers section 3.1). ATTENUATION is the position in the table of the host's enum.
 #pragma once
 
 #include "generated/gpu_interface.glsl"
@@ -29,3 +29,13 @@ float attenuation(LightData light, float distance)
 {
     return distance < light.r1 ? max(table_attenuation(light, min(max(distance, light.r0), light.r1)), 0.0) : 0.0;
 }
+
+#if SPOTS
+// The part of a light that goes through its cone towards a point from which the light lies in direction `towards_light`, a unit
+// vector (KHR_lights_punctual).
+float cone_part(SpotData spot, vec3 towards_light)
+{
+    float part = clamp(spot.offset - spot.scale * dot(spot.axis, towards_light), 0.0, 1.0);
+    return part * part;
+}
+#endif

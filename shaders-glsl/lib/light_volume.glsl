@@ -8,8 +8,16 @@
 LightVolume volume_of_light(uint light)
 {
     LightData place = read_light(light);
-    precise vec3 centre = (grid.clustering_from_world * vec4(place.position, 1.0)).xyz;
-    precise float radius = place.r1 + max(grid.slack, grid.slack_per_radius * place.r1);
+#if SPOTS
+    SpotData spot = read_spot(light);
+    precise vec3 middle = place.position + spot.along * spot.axis;
+    float reach = spot.radius;
+#else
+    precise vec3 middle = place.position;
+    float reach = place.r1;
+#endif
+    precise vec3 centre = (grid.clustering_from_world * vec4(middle, 1.0)).xyz;
+    precise float radius = reach + max(grid.slack, grid.slack_per_radius * reach);
     LightVolume volume;
     volume.centre = centre;
     volume.radius = radius;

@@ -11,13 +11,22 @@
 const uint AT_ONCE = LIGHTS_AT_ONCE;
 
 // Evaluates one light; true where it reaches the surface.
-bool shade_light(LightData light, Surface surface, inout vec3 radiance)
+bool shade_light(uint index, Surface surface, inout vec3 radiance)
 {
+    LightData light = read_light(index);
     vec3 offset = light.position - surface.position;
     float distance = length(offset);
     if (distance >= light.r1)
         return false;
-    radiance += reflected(surface, offset / max(distance, 1e-6)) * light.tint * attenuation(light, distance);
+    vec3 towards_light = offset / max(distance, 1e-6);
+    float fading = attenuation(light, distance);
+#if SPOTS
+    float part = cone_part(read_spot(index), towards_light);
+    if (part <= 0.0)
+        return false;
+    fading *= part;
+#endif
+    radiance += reflected(surface, towards_light) * light.tint * fading;
     return true;
 }
 
@@ -29,7 +38,7 @@ vec3 shade_lights(Surface surface, LightCursor cursor)
         [[unroll]] for (uint i = 0u; i < AT_ONCE; ++i) {
             if (position + i < cursor.end) {
                 ++evaluated;
-                needed += uint(shade_light(read_light(light_at(position + i)), surface, radiance));
+                needed += uint(shade_light(light_at(position + i), surface, radiance));
             }
         }
     }

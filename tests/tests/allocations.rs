@@ -41,7 +41,7 @@ fn asked(run: &Config, assigner: Assigner) -> usize {
     let mut session = Session::new(run, &inputs.scene, inputs.recording.view_set()).unwrap();
     let plans = plan_frames(run, &inputs.recording).unwrap();
     let mut lights = inputs.light_source(&run.lights_of_run()).unwrap();
-    let count = inputs.light_count(&run.lights_of_run()).unwrap();
+    let count = inputs.light_tally(&run.lights_of_run()).unwrap();
     let mode = Mode { assigner, counting: false, ..Mode::counting(run, count) };
     let mut engine = Engine::new(&mut session, run, LargestGrid::of(&plans), mode).unwrap();
     let mut before = 0;

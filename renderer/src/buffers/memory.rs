@@ -95,6 +95,7 @@ mod tests {
         lists: ListStore::Offsets,
         slice_planes: 17,
         lights: 100,
+        spots: false,
         capacities: Capacities {
             visible_clusters: 1000,
             light_indices: 5000,

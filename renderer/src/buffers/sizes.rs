@@ -28,6 +28,8 @@ pub struct ClusteringSizes {
     pub slice_planes: u32,
     /// Lights (most of all frames).
     pub lights: u32,
+    /// Whether some lights have cones.
+    pub spots: bool,
     /// How many entries the buffers of visible clusters and light indices hold; see [`Self::light_indices`].
     pub capacities: Capacities,
     /// How the lists are built.
@@ -52,6 +54,11 @@ impl ClusteringSizes {
     /// Lights that are taken into the space of clusters, where there are such.
     pub(super) fn volumes(&self) -> u64 {
         if self.clusters > 0 { self.lights.into() } else { 0 }
+    }
+
+    /// Lights whose cones are told: all, where some have one.
+    pub(super) fn cones(&self) -> u64 {
+        if self.spots { self.lights.into() } else { 0 }
     }
 
     /// Those of which each has its rank: what is visible before it.
@@ -318,6 +325,7 @@ mod tests {
             lists: ListStore::Offsets,
             slice_planes: 65,
             lights: 10_000,
+            spots: false,
             capacities,
             assigner,
             has_octree: false,

@@ -13,7 +13,7 @@ impl Config {
         if self.scene_lights {
             return vec![LightsFrom::Scene];
         }
-        let made = |lighting| LightsFrom::Generated(self.generator(), lighting);
+        let made = |lighting| LightsFrom::Generated(self.generator(), lighting, self.spots);
         self.lights.iter().copied().map(made).collect()
     }
 
@@ -89,5 +89,6 @@ impl Config {
         self.light_volumes = usual.light_volumes;
         self.scenes.iter_mut().for_each(|entry| entry.light_volumes.clear());
         self.light_set = usual.light_set;
+        self.spots = usual.spots;
     }
 }

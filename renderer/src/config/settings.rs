@@ -9,7 +9,9 @@ use super::{
 use crate::assign::{Bounds, Clusters, Compaction, ListStore, Marking};
 use crate::culling::Culling;
 use crate::geometry::{DisplacedVolume, SliceLaw, SphereTest};
-use crate::lights::{Attenuation, GeneratorKind, LatticeBox, LightBox, LightMotion, LightSet, Lighting};
+use crate::lights::{
+    Attenuation, GeneratorKind, LatticeBox, LightBox, LightMotion, LightSet, Lighting, SpotShare,
+};
 use crate::material::MaterialModel;
 use crate::measure::Order;
 use crate::methods::{GridBox, KINDS, Method, OctreeWay, Sharing, Space};
@@ -114,12 +116,19 @@ settings! {
         arg(long, value_name = "ax_by_cz")
         schemars(with = "Option<String>")
     }
-    /// Static lights from a CSV file (columns `x,y,z,r,g,b,i,i0,r0` and maybe `r1`) instead of made ones.
+    /// Which part of the lights that are made are spots, 0 to 1, each with a direction and angles by chance; half are points and
+    /// half spots at 0.5.
+    spots: SpotShare = SpotShare::default(), Counts {
+        arg(long, value_name = "FRACTION", allow_hyphen_values = true)
+        schemars(with = "Option<SpotShare>")
+    }
+    /// Static lights from a CSV file (columns `x,y,z,r,g,b,i,i0,r0`, maybe `r1`, and of spots `dx,dy,dz,inner,outer`) instead of
+    /// made ones.
     lights_file: PathBuf, Outside {
         arg(long, value_name = "FILE.csv")
         check(values::check_path)
     }
-    /// The scene's own point lights (KHR_lights_punctual) instead of made ones.
+    /// The scene's own point and spot lights (KHR_lights_punctual) instead of made ones.
     scene_lights: bool = false, Shown {
         arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")
     }

@@ -2,8 +2,7 @@
 
 use super::scan;
 use crate::geometry::{CellTest, Grid, LightVolume, MeasuredBounds, SphereTest};
-use crate::lights::PointLight;
-use glam::DVec3;
+use crate::lights::Light;
 
 /// The light lists of all visible clusters, one behind the other.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,13 +25,7 @@ impl LightLists {
 /// Assigns `lights` (world space, influence radius R1) to the `visible` clusters of `grid` (linear indices).
 ///
 /// `epsilon`, in metres, is how small a margin makes a pair borderline.
-pub fn assign(
-    grid: &Grid,
-    visible: &[u32],
-    lights: &[PointLight],
-    test: SphereTest,
-    epsilon: f64,
-) -> LightLists {
+pub fn assign(grid: &Grid, visible: &[u32], lights: &[Light], test: SphereTest, epsilon: f64) -> LightLists {
     let cells = visible.iter().map(|&cluster| Some(CellTest::new(test, grid, grid.cluster_at(cluster))));
     assign_cells(cells, grid, lights, epsilon)
 }
@@ -41,7 +34,7 @@ pub fn assign(
 pub fn assign_measured(
     grid: &Grid,
     (visible, bounds): (&[u32], &[MeasuredBounds]),
-    lights: &[PointLight],
+    lights: &[Light],
     test: SphereTest,
     epsilon: f64,
 ) -> LightLists {
@@ -54,7 +47,7 @@ pub fn assign_measured(
 fn assign_cells(
     cells: impl Iterator<Item = Option<CellTest>>,
     grid: &Grid,
-    lights: &[PointLight],
+    lights: &[Light],
     epsilon: f64,
 ) -> LightLists {
     let volumes: Vec<_> = lights.iter().map(|light| volume_of_light(grid, light)).collect();
@@ -93,9 +86,9 @@ impl LightLists {
 }
 
 /// What a light reaches, in the space of `grid`; without the slack that covers the device's rounding.
-fn volume_of_light(grid: &Grid, light: &PointLight) -> LightVolume {
-    let world = DVec3::from_array(light.position.map(f64::from));
-    LightVolume::sphere(grid.pose.inverse_transform_point(world), light.r1.into())
+fn volume_of_light(grid: &Grid, light: &Light) -> LightVolume {
+    let (world, radius) = light.bounding_sphere();
+    LightVolume::sphere(grid.pose.inverse_transform_point(world), radius)
 }
 
 #[cfg(test)]
@@ -103,9 +96,18 @@ mod tests {
     use super::*;
     use crate::geometry::ClusterSpace;
     use crate::geometry::views::Pose;
+    use glam::DVec3;
 
-    fn light(x: f32, r1: f32) -> PointLight {
-        PointLight { position: [x, 0.5, 10.5], tint: [1.0; 3], intensity: 1.0, cutoff: 1.0, r0: 0.1, r1 }
+    fn light(x: f32, r1: f32) -> Light {
+        Light {
+            position: [x, 0.5, 10.5],
+            tint: [1.0; 3],
+            intensity: 1.0,
+            cutoff: 1.0,
+            r0: 0.1,
+            r1,
+            spot: None,
+        }
     }
 
     /// A row of four unit cells, ten metres up the Z axis.

@@ -1,12 +1,12 @@
 //! How a light fades with distance (Gelderen appendix A, Tegelaers section 3.1).
 
-use crate::lights::{Attenuation, PointLight};
+use crate::lights::{Attenuation, Light};
 
 /// The attenuation a(d) of `light` at `distance` metres: its tint is multiplied by it.
 ///
 /// Nearer than R0 it is that at R0; at R1 and beyond it is 0, and it is nowhere below 0 where an R1 of the light's
 /// own reaches past sqrt(I/I0).
-pub fn attenuation(function: Attenuation, light: &PointLight, distance: f64) -> f64 {
+pub fn attenuation(function: Attenuation, light: &Light, distance: f64) -> f64 {
     let [i, i0, r0, r1] = [light.intensity, light.cutoff, light.r0, light.r1].map(f64::from);
     if distance >= r1 {
         return 0.0;
@@ -35,8 +35,15 @@ mod tests {
     use Attenuation::*;
 
     /// R1 = sqrt(8/0.5) = 4.
-    const LIGHT: PointLight =
-        PointLight { position: [0.0; 3], tint: [1.0; 3], intensity: 8.0, cutoff: 0.5, r0: 0.5, r1: 4.0 };
+    const LIGHT: Light = Light {
+        position: [0.0; 3],
+        tint: [1.0; 3],
+        intensity: 8.0,
+        cutoff: 0.5,
+        r0: 0.5,
+        r1: 4.0,
+        spot: None,
+    };
 
     #[test]
     fn every_function_has_its_value_at_half_the_radius() {
@@ -66,7 +73,7 @@ mod tests {
 
     #[test]
     fn a_reach_beyond_the_cutoff_takes_no_light_away() {
-        let wide = PointLight { r1: 8.0, ..LIGHT };
+        let wide = Light { r1: 8.0, ..LIGHT };
         for function in Attenuation::ALL {
             for distance in [0.5, 3.9, 4.1, 6.0, 7.9] {
                 assert!(attenuation(function, &wide, distance) >= 0.0, "{function:?} at {distance} m");
@@ -77,7 +84,7 @@ mod tests {
 
     #[test]
     fn a_near_radius_beyond_the_reach_does_no_harm() {
-        let odd = PointLight { r0: 9.0, ..LIGHT };
+        let odd = Light { r0: 9.0, ..LIGHT };
         assert_eq!(attenuation(Phy, &odd, 1.0), 0.5);
     }
 }

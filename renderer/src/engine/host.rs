@@ -5,12 +5,10 @@ use crate::Result;
 use crate::buffers::BufferName;
 use crate::clustering::{grid_data, gridless_data, view_data, world_slack};
 use crate::culling::Culling;
-use crate::geometry::VolumeKind;
-use crate::gpu_interface::{DrawCounts, GridData, LightData};
+use crate::gpu_interface::{DrawCounts, GridData};
 use crate::gpu_scene::GpuScene;
-use crate::lights::{FrameLights, PointLight};
+use crate::lights::{FrameLights, Light};
 use crate::methods::{Scenery, hashed};
-use glam::{DVec3, Vec3};
 
 impl Engine {
     /// Writes what the frame in `slot` is made from; its lights only where they are not those on the device.
@@ -34,7 +32,7 @@ impl Engine {
             self.write_clustering(session, slot, plan, clustering, lights.list);
         }
         self.write_draws(session, slot, plan);
-        self.write_lights(slot, lights, origin);
+        self.lights.write(slot, lights, origin);
         Ok(())
     }
 
@@ -71,18 +69,6 @@ impl Engine {
         }
     }
 
-    /// The lights relative to the origin, unless the device has them so already.
-    fn write_lights(&mut self, slot: usize, lights: FrameLights, origin: DVec3) {
-        let wanted = Some((lights.revision, origin));
-        self.lights_changed = self.lights_there != wanted;
-        if self.lights_changed {
-            self.lights_there = wanted;
-            self.staged.clear();
-            self.staged.extend(lights.list.iter().map(|light| light_data(light, origin)));
-            self.staging[slot].write(0, &self.staged);
-        }
-    }
-
     /// Writes a clustering's grid and the views that look lights up there, relative to the frame's origin.
     fn write_clustering(
         &mut self,
@@ -90,7 +76,7 @@ impl Engine {
         slot: usize,
         plan: &FramePlan,
         number: usize,
-        lights: &[PointLight],
+        lights: &[Light],
     ) {
         let leaves = self.row_of_leaves();
         let clustering = &mut self.clusterings[number];
@@ -124,19 +110,5 @@ impl Engine {
             let data = view_data(&near, grid.as_ref(), self.resolution, session.scene.reach);
             session.frame_slots[slot].views.write((number * size_of_val(&data)) as u64, &[data]);
         }
-    }
-}
-
-/// A light as shaders read it in a frame with this origin.
-fn light_data(light: &PointLight, origin: DVec3) -> LightData {
-    LightData {
-        position: (Vec3::from(light.position).as_dvec3() - origin).as_vec3().to_array(),
-        r1: light.r1,
-        tint: light.tint,
-        intensity: light.intensity,
-        cutoff: light.cutoff,
-        r0: light.r0,
-        kind: VolumeKind::Sphere as u32,
-        ..Default::default()
     }
 }

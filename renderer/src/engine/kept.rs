@@ -90,6 +90,7 @@ mod tests {
             lists,
             slice_planes: 0,
             lights: 100,
+            spots: false,
             capacities: Capacities {
                 visible_clusters: 10,
                 light_indices: 20,

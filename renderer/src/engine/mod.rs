@@ -14,6 +14,7 @@ mod frame_slot;
 mod growth;
 mod host;
 mod kept;
+mod lights;
 mod mode;
 mod octree;
 mod plan;
@@ -32,10 +33,10 @@ pub use session::{Session, shader_library};
 
 use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction, ListStore, Marking};
 use crate::buffers::{BufferName, ClusteringSizes, Copies};
-use crate::clustering::{Clustering, FRAME_SLOTS, SharedBuffer, make_buffer};
+use crate::clustering::{Clustering, FRAME_SLOTS, SharedBuffer};
 use crate::config::{Config, Scopes};
 use crate::culling::Culling;
-use crate::gpu_interface::{ClusteringState, LightData};
+use crate::gpu_interface::ClusteringState;
 use crate::layouts::Pipeline;
 use crate::lights::FrameLights;
 use crate::measure::{ClusteringCounts, FrameCounts, GrowthEvent, OctreeCounts, StructureMemory};
@@ -45,10 +46,9 @@ use crate::pass::{Recorder, ScopeTree, Timed};
 use crate::passes::{Draws, Frame};
 use crate::pipelines::Pipelines;
 use crate::shading::{Shading, ShadingPipeline};
-use crate::vk::{Buffer, Context, Memory};
+use crate::vk::Context;
 use crate::{Result, frame};
-use ash::vk;
-use glam::DVec3;
+use lights::DeviceLights;
 use mode::Chosen;
 use octree::HostOctree;
 use std::sync::Arc;
@@ -73,13 +73,7 @@ pub struct Engine {
     pipelines: Pipelines,
     sizes: ClusteringSizes,
     largest: LargestGrid,
-    lights: Buffer,
-    staging: [Buffer; FRAME_SLOTS],
-    staged: Vec<LightData>,
-    /// The revision and origin of the lights on the device.
-    lights_there: Option<(u64, DVec3)>,
-    /// Whether the frame at hand brings others.
-    lights_changed: bool,
+    lights: DeviceLights,
     slice_planes: Vec<f32>,
     octree: Option<HostOctree>,
     clusterings: Vec<Clustering>,
@@ -102,17 +96,12 @@ impl Engine {
     /// Buffers beyond the device's limits; shaders that do not compile.
     pub fn new(session: &mut Session, run: &Config, largest: LargestGrid, mode: Mode) -> Result<Self> {
         let chosen = Chosen::of(run, &mode);
-        chosen.check(session.scene.models(), mode.lights)?;
+        chosen.check(session.scene.models(), mode.lights.count)?;
         let largest = chosen.largest(largest, session.scene.models());
         let limits = &session.context.limits;
         chosen.check_grid(largest, run.msaa, limits.max_compute_shared_memory)?;
         let sizes = chosen.sizes(run, largest, &mode);
         sizes.check(&session.context.limits)?;
-        let light_bytes = (u64::from(mode.lights) * size_of::<LightData>() as u64).max(16);
-        let staging = || {
-            let usage = vk::BufferUsageFlags::TRANSFER_SRC;
-            Buffer::new(&session.context, "light staging", light_bytes, usage, Memory::Upload)
-        };
         let mut engine = Self {
             context: session.context.clone(),
             method: chosen.method,
@@ -129,14 +118,10 @@ impl Engine {
             pipeline: run.pipeline[0],
             resolution: run.resolution,
             timed: timed(run.scopes),
-            staging: [staging()?, staging()?],
-            lights: make_buffer(&session.context, BufferName::Lights, light_bytes, Memory::Device)?,
+            lights: DeviceLights::new(&session.context, mode.lights)?,
             pipelines: session.store.pipelines(&chosen.variant(run, &mode))?,
             largest,
             sizes,
-            staged: Vec::with_capacity(mode.lights as usize),
-            lights_there: None,
-            lights_changed: false,
             octree: HostOctree::new(
                 &session.context,
                 (chosen.method, run.octree[0]),
@@ -158,7 +143,7 @@ impl Engine {
     /// As there.
     pub fn check(session: &mut Session, run: &Config, largest: LargestGrid, mode: &Mode) -> Result<()> {
         let chosen = Chosen::of(run, mode);
-        chosen.check(session.scene.models(), mode.lights)?;
+        chosen.check(session.scene.models(), mode.lights.count)?;
         let largest = chosen.largest(largest, session.scene.models());
         let limits = &session.context.limits;
         chosen.check_grid(largest, run.msaa, limits.max_compute_shared_memory)?;
@@ -172,8 +157,7 @@ impl Engine {
         let largest = chosen.largest(largest, session.scene.models());
         let clusterings = chosen.method.kind().sharing.clusterings(session.targets.len()) as u64;
         let slots = FRAME_SLOTS as u64;
-        let lights = (slots + 1) * u64::from(mode.lights) * size_of::<LightData>() as u64;
-        clusterings * chosen.sizes(run, largest, mode).bytes(slots) + lights
+        clusterings * chosen.sizes(run, largest, mode).bytes(slots) + DeviceLights::bytes(mode.lights)
     }
 
     /// What each structure takes, and what frames need of it by their counts.
@@ -215,10 +199,12 @@ impl Engine {
             octree.there = false;
         }
         let slots = &session.frame_slots;
-        let shared: [SharedBuffer; 8] = [
+        let [lights, spots] = self.lights.shared();
+        let shared: [SharedBuffer; 9] = [
             (BufferName::Views, slots.each_ref().map(|slot| &slot.views)),
             (BufferName::DrawOrder, slots.each_ref().map(|slot| &slot.draw_order)),
-            (BufferName::Lights, [&self.lights; FRAME_SLOTS]),
+            lights,
+            spots,
             (BufferName::Instances, [&session.scene.instances; FRAME_SLOTS]),
             (BufferName::ModelBoxes, [&session.scene.model_boxes; FRAME_SLOTS]),
             (BufferName::Drawables, [&session.scene.drawables; FRAME_SLOTS]),
@@ -303,10 +289,7 @@ impl Engine {
             shading: self.shading,
             pipeline: self.pipeline,
             shaded: self.shaded,
-            lights: &self.lights,
-            light_staging: &self.staging[slot],
-            lights_changed: self.lights_changed,
-            light_count: self.staged.len() as u32,
+            lights: self.lights.upload(slot),
             octree: self.octree.as_ref().map(|octree| octree.tables(slot)),
             states: &this.states,
             resolution: self.resolution,

@@ -8,6 +8,7 @@ use crate::assign::{
 use crate::buffers::ClusteringSizes;
 use crate::config::Config;
 use crate::geometry::{SliceLaw, SphereTest};
+use crate::lights::LightTally;
 use crate::measure::Capacities;
 use crate::methods::model::MOST_ACCELERATED;
 use crate::methods::{Groups, Method};
@@ -60,8 +61,8 @@ impl LargestGrid {
 /// What an engine is made for beyond the configuration of its run.
 #[derive(Debug, Clone, Copy)]
 pub struct Mode {
-    /// Most lights of all frames.
-    pub lights: u32,
+    /// Most lights of all frames, and whether some have cones.
+    pub lights: LightTally,
     /// What the buffers hold at first.
     pub capacities: Capacities,
     /// How the lists are built.
@@ -72,7 +73,7 @@ pub struct Mode {
 
 impl Mode {
     /// Brute force with the capacities that `config` begins with, counting.
-    pub fn counting(config: &Config, lights: u32) -> Self {
+    pub fn counting(config: &Config, lights: LightTally) -> Self {
         Self { lights, capacities: config.capacities(), assigner: Assigner::Brute, counting: true }
     }
 }
@@ -171,11 +172,12 @@ impl Chosen {
             marking: run.marking,
             assigner: self.assigner,
             test: self.test,
-            lights_at_once: lights_at_once(self.method.has_lists(), mode.lights),
+            lights_at_once: lights_at_once(self.method.has_lists(), mode.lights.count),
             shading: run.shading[0],
             pipeline: run.pipeline[0],
             attenuation: run.attenuation,
             material: run.material,
+            spots: mode.lights.spots,
             counting: mode.counting,
         }
     }
@@ -198,7 +200,8 @@ impl Chosen {
             compaction: self.compaction,
             lists: self.lists,
             slice_planes,
-            lights: mode.lights,
+            lights: mode.lights.count,
+            spots: mode.lights.spots,
             capacities: Capacities { list_entries, ..capacities },
             assigner: self.assigner,
             has_octree: kind.groups == Groups::Leaves,

@@ -4,7 +4,7 @@ use super::workbench::{Case, Lists, Room, Workbench, given};
 use super::*;
 use crate::cpu;
 use crate::geometry::Grid;
-use crate::lights::PointLight;
+use crate::lights::Light;
 use crate::measure::Capacities;
 use crate::pass::{BufferCopy, Faults};
 use crate::passes::{assign, lights as light_upload, readback, scan};
@@ -27,7 +27,7 @@ fn street() -> Scene {
     by_name("street").expect("a built-in scene")
 }
 
-fn lights(count: u32) -> Vec<PointLight> {
+fn lights(count: u32) -> Vec<Light> {
     rain(count).unwrap()
 }
 
@@ -53,7 +53,7 @@ impl DerefMut for Bench {
 }
 
 impl Bench {
-    fn new(method: Method, grid: Grid, lights: &[PointLight], capacities: Capacities) -> Self {
+    fn new(method: Method, grid: Grid, lights: &[Light], capacities: Capacities) -> Self {
         Self::with_config(&config(), method, grid, lights, capacities)
     }
 
@@ -61,7 +61,7 @@ impl Bench {
         config: &Config,
         method: Method,
         grid: Grid,
-        lights: &[PointLight],
+        lights: &[Light],
         capacities: Capacities,
     ) -> Self {
         Self::with_scene(config, &street(), Case { method, grid, lights, capacities })
@@ -71,7 +71,7 @@ impl Bench {
         Self(Workbench::new(config, scene, case, Faults::default()).unwrap())
     }
 
-    fn write(&mut self, plan: &FramePlan, list: &[PointLight]) {
+    fn write(&mut self, plan: &FramePlan, list: &[Light]) {
         self.0.write(plan, list).unwrap();
     }
 

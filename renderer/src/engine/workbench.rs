@@ -9,7 +9,7 @@ use crate::config::Config;
 use crate::geometry::views::{View, ViewSet};
 use crate::geometry::{Frustum, Grid};
 use crate::gpu_interface::{ClusteringState, GridData};
-use crate::lights::{FrameLights, PointLight};
+use crate::lights::{FrameLights, Light, LightTally};
 use crate::measure::Capacities;
 use crate::methods::Method;
 use crate::methods::grid::{compact, light_lists};
@@ -32,7 +32,7 @@ pub struct Case<'a> {
     /// The grid of the one clustering.
     pub grid: Grid,
     /// World space.
-    pub lights: &'a [PointLight],
+    pub lights: &'a [Light],
     /// What the buffers hold.
     pub capacities: Capacities,
 }
@@ -101,7 +101,7 @@ impl Workbench {
         let plan = frame_of(grid, config.resolution);
         let assigner = config.assign[0].fixed().unwrap_or(Assigner::Brute);
         let run = Config { methods: vec![method], ..config.clone() };
-        let mode = Mode { lights: lights.len() as u32, capacities, assigner, counting: true };
+        let mode = Mode { lights: LightTally::of(lights), capacities, assigner, counting: true };
         let largest = LargestGrid::of(std::slice::from_ref(&plan));
         let engine = Engine::new(&mut session, &run, largest, mode)?;
         let (variant, words) = (variant(&run, &mode), grid.cluster_count().div_ceil(32));
@@ -114,7 +114,7 @@ impl Workbench {
     ///
     /// # Errors
     /// Whatever fails on the device.
-    pub fn write(&mut self, plan: &FramePlan, list: &[PointLight]) -> Result<()> {
+    pub fn write(&mut self, plan: &FramePlan, list: &[Light]) -> Result<()> {
         self.revision += 1;
         let lights = FrameLights { list, revision: self.revision };
         self.engine.write_host_data(&mut self.session, SLOT, plan, lights)

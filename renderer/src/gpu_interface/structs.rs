@@ -184,6 +184,24 @@ gpu_struct! {
 }
 
 gpu_struct! {
+    /// The cone that a light shines into, world space; that of a light which shines all around is everywhere.
+    pub struct SpotData in texels {
+        /// Unit direction of the light; 0 of one without.
+        pub axis: [f32; 3],
+        /// How far along the axis the middle of the bounding sphere lies, metres.
+        pub along: f32,
+        /// Radius of the bounding sphere, metres.
+        pub radius: f32,
+        /// What the cosine of the angle to the axis is multiplied by to find how the light fades.
+        pub scale: f32,
+        /// What is added to that: up to 0 no light goes that way, from 1 on all does.
+        pub offset: f32,
+        /// Cosine of the half angle that light is gone from; -1 of a light without a cone.
+        pub cosine: f32,
+    }
+}
+
+gpu_struct! {
     /// A metallic-roughness material.
     pub struct MaterialData {
         /// Linear base colour and alpha.

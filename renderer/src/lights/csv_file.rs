@@ -1,19 +1,29 @@
 //! Static lights from a CSV file.
 
-use super::PointLight;
+use super::{Light, Spot};
 use crate::{Error, Result, text};
 use csv::{ReaderBuilder, StringRecord, Trim};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
-/// Columns in the order of a [`PointLight`]'s values; the last one may be missing.
-const COLUMNS: [&str; 10] = ["x", "y", "z", "r", "g", "b", "i", "i0", "r0", "r1"];
+/// Columns in the order of a [`Light`]'s values; those from [`OPTIONAL`] on may be missing.
+const COLUMNS: [&str; 15] =
+    ["x", "y", "z", "r", "g", "b", "i", "i0", "r0", "r1", "dx", "dy", "dz", "inner", "outer"];
+
+/// The first column that may be missing.
+const OPTIONAL: usize = 9;
+
+/// The first of the columns of a spot's cone.
+const CONE: usize = 10;
+
+/// The column that makes a light a spot.
+const OUTER: usize = 14;
 
 /// Lights of a file, which is known by what it holds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LightsFile {
     /// Lights in the order of the file's rows.
-    pub lights: Vec<PointLight>,
+    pub lights: Vec<Light>,
     /// Hexadecimal SHA-256 of the file.
     pub sha256: String,
 }
@@ -22,6 +32,9 @@ pub struct LightsFile {
 /// intensity `i`, cut-off `i0`, near radius `r0` and influence radius `r1` in metres, columns in any order.
 /// Where `r1` has no column or no value, it is sqrt(i/i0); where it is less than that, the light's cut-off is raised to
 /// i/r1^2, so that the light still fades to nothing at `r1`.
+///
+/// A row with a value of `outer` is a spot light: direction `dx,dy,dz` of any length, half angles `inner` (0 where it has no value)
+/// and `outer` in degrees. Without, the others are without meaning and have no value.
 ///
 /// # Errors
 /// [`Error::File`] with line and column where the file cannot be read, has not these columns, holds no light, or
@@ -36,7 +49,7 @@ pub fn load_csv(path: impl AsRef<Path>) -> Result<LightsFile> {
     Ok(LightsFile { lights, sha256 })
 }
 
-fn read(bytes: &[u8]) -> Result<Vec<PointLight>, String> {
+fn read(bytes: &[u8]) -> Result<Vec<Light>, String> {
     let text = text::decode(bytes)?;
     let mut reader = ReaderBuilder::new().trim(Trim::All).from_reader(text.as_bytes());
     let places = places(reader.headers().map_err(|error| error.to_string())?)?;
@@ -55,9 +68,9 @@ fn read(bytes: &[u8]) -> Result<Vec<PointLight>, String> {
 }
 
 /// Where each of [`COLUMNS`] stands in a row.
-fn places(header: &StringRecord) -> Result<[Option<usize>; 10], String> {
-    let wanted = "x,y,z,r,g,b,i,i0,r0[,r1]";
-    let mut places = [None; 10];
+fn places(header: &StringRecord) -> Result<[Option<usize>; COLUMNS.len()], String> {
+    let wanted = "x,y,z,r,g,b,i,i0,r0[,r1][,dx,dy,dz,inner,outer]";
+    let mut places = [None; COLUMNS.len()];
     for (place, name) in header.iter().enumerate() {
         let Some(column) = COLUMNS.iter().position(|column| *column == name) else {
             return Err(format!("line 1: no column is called `{name}`; the header must be {wanted}"));
@@ -66,7 +79,7 @@ fn places(header: &StringRecord) -> Result<[Option<usize>; 10], String> {
             return Err(format!("line 1: two columns are called `{name}`"));
         }
     }
-    match places[..9].iter().position(Option::is_none) {
+    match places[..OPTIONAL].iter().position(Option::is_none) {
         Some(column) => {
             Err(format!("line 1: column `{}` is missing; the header must be {wanted}", COLUMNS[column]))
         }
@@ -74,19 +87,51 @@ fn places(header: &StringRecord) -> Result<[Option<usize>; 10], String> {
     }
 }
 
-fn light(record: &StringRecord, places: &[Option<usize>; 10]) -> Result<PointLight, (&'static str, String)> {
-    let field = |column: usize| places[column].and_then(|place| record.get(place)).unwrap_or("");
-    let number = |column: usize| {
-        field(column)
-            .parse::<f32>()
-            .map_err(|_| (COLUMNS[column], format!("`{}` is not a number", field(column))))
-    };
+/// A row, and where its columns stand.
+struct Row<'a> {
+    record: &'a StringRecord,
+    places: &'a [Option<usize>; COLUMNS.len()],
+}
+
+impl Row<'_> {
+    fn field(&self, column: usize) -> &str {
+        self.places[column].and_then(|place| self.record.get(place)).unwrap_or("")
+    }
+
+    fn number(&self, column: usize) -> Result<f32, Problem> {
+        let field = self.field(column);
+        field.parse().map_err(|_| (COLUMNS[column], format!("`{field}` is not a number")))
+    }
+
+    /// The cone of a spot.
+    fn cone(&self) -> Result<Option<Spot>, Problem> {
+        if self.field(OUTER).is_empty() {
+            return match (CONE..OUTER).find(|&column| !self.field(column).is_empty()) {
+                Some(column) => {
+                    Err((COLUMNS[column], "a light without a value of `outer` has no cone".into()))
+                }
+                None => Ok(None),
+            };
+        }
+        let direction = [self.number(CONE)?, self.number(CONE + 1)?, self.number(CONE + 2)?];
+        let inner = if self.field(CONE + 3).is_empty() { 0.0 } else { self.number(CONE + 3)? };
+        Ok(Some(Spot::new(direction, inner.to_radians(), self.number(OUTER)?.to_radians())))
+    }
+}
+
+/// A column, and what is wrong there.
+type Problem = (&'static str, String);
+
+fn light(record: &StringRecord, places: &[Option<usize>; COLUMNS.len()]) -> Result<Light, Problem> {
+    let row = Row { record, places };
+    let number = |column| row.number(column);
     let position = [number(0)?, number(1)?, number(2)?];
     let tint = [number(3)?, number(4)?, number(5)?];
-    let mut light = PointLight::new(position, tint, number(6)?, number(7)?, number(8)?);
-    if !field(9).is_empty() {
-        light = light.ending_at(number(9)?);
+    let mut light = Light::new(position, tint, number(6)?, number(7)?, number(8)?);
+    if !row.field(OPTIONAL).is_empty() {
+        light = light.ending_at(number(OPTIONAL)?);
     }
+    let light = light.shining(row.cone()?);
     light.check()?;
     Ok(light)
 }
@@ -116,13 +161,14 @@ mod tests {
     fn rows_become_lights() {
         let text = format!("{HEADER}1, 2,-3.5,0.5,1,0,100,0.5,0.1,14\n4,5,6,1,1,1,8,0.5,0.25,\n");
         let lights = read(text.as_bytes()).unwrap();
-        let first = PointLight {
+        let first = Light {
             position: [1.0, 2.0, -3.5],
             tint: [0.5, 1.0, 0.0],
             intensity: 100.0,
             cutoff: 100.0 / (14.0 * 14.0),
             r0: 0.1,
             r1: 14.0,
+            spot: None,
         };
         assert_eq!(lights[0], first);
         assert_eq!((lights[1].r0, lights[1].r1), (0.25, 4.0));
@@ -183,6 +229,30 @@ mod tests {
             assert!(message.starts_with(start), "{row}: {message}");
         }
         assert!(refusal("1,2,3").contains("line: 3"), "{}", refusal("1,2,3"));
+    }
+
+    #[test]
+    fn rows_with_an_outer_angle_are_spots() {
+        let header = "x,y,z,r,g,b,i,i0,r0,dx,dy,dz,inner,outer\n";
+        let read_row = |row: &str| read(format!("{header}{row}\n").as_bytes());
+        let start = "1,2,3,1,1,1,100,0.5,0.1";
+        assert_eq!(read_row(&format!("{start},,,,,")).unwrap()[0].spot, None);
+        let spot = read_row(&format!("{start},0,-2,0,10,20")).unwrap()[0].spot.unwrap();
+        assert_eq!(spot.direction, [0.0, -1.0, 0.0]);
+        assert!(
+            (spot.inner.to_degrees() - 10.0).abs() < 1e-4 && (spot.outer.to_degrees() - 20.0).abs() < 1e-4
+        );
+        assert_eq!(read_row(&format!("{start},0,-2,0,,20")).unwrap()[0].spot.unwrap().inner, 0.0);
+        for (cone, told) in [
+            ("0,0,0,10,20", "column dx: 0,0,0 is no direction"),
+            ("0,1,,10,20", "column dz: `` is not a number"),
+            ("0,1,0,30,20", "column inner: 30"),
+            ("0,1,0,0,95", "column outer: 95"),
+            ("0,1,0,,", "column dx: a light without a value of `outer` has no cone"),
+        ] {
+            let message = read_row(&format!("{start},{cone}")).unwrap_err();
+            assert!(message.contains(told), "{message}");
+        }
     }
 
     #[test]

@@ -13,7 +13,7 @@
 use super::motion::{BOUNCE_SPEED, Bounce, LightMotion};
 use super::place::Corners;
 use super::random::{generator, normal, uniform, uniform_vector};
-use super::{FrameLights, LightSource, Lighting, PointLight, reserve};
+use super::{FrameLights, Light, LightSource, Lighting, reserve};
 use crate::Result;
 use rand_pcg::Pcg32;
 use rayon::prelude::*;
@@ -103,7 +103,7 @@ pub struct GammaLights {
     within: Corners,
     dt_s: f64,
     starts: Vec<Bounce>,
-    lights: Vec<PointLight>,
+    lights: Vec<Light>,
 }
 
 impl GammaLights {
@@ -120,7 +120,7 @@ impl GammaLights {
 }
 
 /// Light `light` at frame 0 and how it goes on. The radius comes last, for it takes as many numbers as it takes.
-fn make(recipe: &GammaRecipe, lighting: &Lighting, within: &Corners, light: u32) -> (Bounce, PointLight) {
+fn make(recipe: &GammaRecipe, lighting: &Lighting, within: &Corners, light: u32) -> (Bounce, Light) {
     let mut random = generator(recipe.seed, light, 0);
     let start = uniform_vector(&mut random, within.min, within.max);
     let tint = uniform_vector(&mut random, [TINT[0]; 3], [TINT[1]; 3]);

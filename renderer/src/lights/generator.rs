@@ -10,6 +10,7 @@ use super::gamma::{GammaLights, GammaRadii, GammaRecipe};
 use super::motion::LightMotion;
 use super::place::{Corners, LightBox};
 use super::rain::{Rain, RainParameters};
+use super::spotted::{SpotShare, Spotted};
 use super::volume::{LatticeBox, PlacedVolume, VolumeRecipe};
 use super::{LightSource, Lighting, StaticLights};
 use crate::{Error, Result};
@@ -77,6 +78,9 @@ pub struct Generated {
     /// The distribution of their radii, where they differ by chance.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radii: Option<GammaRadii>,
+    /// Which part of them are spots, where any are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spots: Option<SpotShare>,
 }
 
 /// A box of lights that were made.
@@ -167,11 +171,31 @@ impl Generator {
         }
     }
 
-    /// The lights of `lighting`, at the first frame or before.
+    /// The lights of `lighting`, at the first frame or before, of which `spots` get cones.
     ///
     /// # Errors
     /// [`Error::Input`] where they do not fit into memory, or rain's parameters are out of range.
-    pub fn lights(&self, lighting: &Lighting, around: &Surroundings) -> Result<Box<dyn LightSource>> {
+    pub fn lights(
+        &self,
+        lighting: &Lighting,
+        spots: SpotShare,
+        around: &Surroundings,
+    ) -> Result<Box<dyn LightSource>> {
+        let points = self.points(lighting, around)?;
+        let cones = (spots, self.seed(around));
+        Ok(if spots.is_any() { Box::new(Spotted::new(points, cones, lighting.count)) } else { points })
+    }
+
+    /// The seed of all random choices.
+    fn seed(&self, around: &Surroundings) -> u64 {
+        match self {
+            Self::Rain => around.rain.seed,
+            Self::Gamma(_, recipe) => recipe.seed,
+            Self::Volume(_, recipe) => recipe.seed,
+        }
+    }
+
+    fn points(&self, lighting: &Lighting, around: &Surroundings) -> Result<Box<dyn LightSource>> {
         match self {
             Self::Rain => Ok(Box::new(Rain::new(&around.rain, lighting, around.dt_s, 0)?)),
             Self::Gamma(place, recipe) => {
@@ -184,34 +208,40 @@ impl Generator {
         }
     }
 
-    /// What is told of the lights of `lighting`.
+    /// What is told of the lights of `lighting`, of which `spots` have cones.
     ///
     /// # Errors
     /// [`Error::Input`] for a number of lights that no lattice has.
-    pub fn generated(&self, lighting: &Lighting, around: &Surroundings) -> Result<Generated> {
-        let of = |motion: &str, seed, boxes| Generated {
+    pub fn generated(
+        &self,
+        lighting: &Lighting,
+        spots: SpotShare,
+        around: &Surroundings,
+    ) -> Result<Generated> {
+        let of = |motion: &str, boxes| Generated {
             source: self.kind(),
-            seed,
+            seed: self.seed(around),
             motion: motion.into(),
             boxes,
             radii: None,
+            spots: spots.is_any().then_some(spots),
         };
         let plain = |corners| vec![GeneratedBox { corners, turn: None, lattice: None }];
         match self {
-            Self::Rain => Ok(of("fall", around.rain.seed, plain(around.corners(LightBox::Rain)))),
-            Self::Gamma(place, GammaRecipe { seed, radii, motion }) => {
+            Self::Rain => Ok(of("fall", plain(around.corners(LightBox::Rain)))),
+            Self::Gamma(place, GammaRecipe { radii, motion, .. }) => {
                 let motion = match motion {
                     LightMotion::Static => "static",
                     LightMotion::Bounce => "bounce",
                 };
-                Ok(Generated { radii: Some(*radii), ..of(motion, *seed, plain(around.corners(*place))) })
+                Ok(Generated { radii: Some(*radii), ..of(motion, plain(around.corners(*place))) })
             }
             Self::Volume(place, recipe) => {
                 let boxes = around.volumes(*place, recipe, lighting.count)?.into_iter().map(|volume| {
                     let PlacedVolume { within, turn, lattice, .. } = volume;
                     GeneratedBox { corners: within, turn, lattice: Some(lattice) }
                 });
-                Ok(of("static", recipe.seed, boxes.collect()))
+                Ok(of("static", boxes.collect()))
             }
         }
     }
@@ -259,8 +289,8 @@ mod tests {
         let made =
             [Generator::Rain, gamma(LightBox::Rain), gamma(LightBox::Scene), volume(LightBox::Scene, &[])];
         for generator in made {
-            let told = generator.generated(&lighting, &around()).unwrap();
-            let mut source = generator.lights(&lighting, &around()).unwrap();
+            let told = generator.generated(&lighting, SpotShare::default(), &around()).unwrap();
+            let mut source = generator.lights(&lighting, SpotShare::default(), &around()).unwrap();
             let first = source.at_frame(0).list.to_vec();
             let [GeneratedBox { corners, .. }] = told.boxes[..] else { panic!("{told:?}") };
             assert!(first.len() == 32 && first.iter().all(|light| inside(&corners, light.position)));
@@ -268,7 +298,8 @@ mod tests {
             assert_eq!(moved, told.motion != "static", "{told:?}");
             assert_eq!(told.source, generator.kind());
         }
-        let told = volume(LightBox::Scene, &[]).generated(&lighting, &around()).unwrap();
+        let told =
+            volume(LightBox::Scene, &[]).generated(&lighting, SpotShare::default(), &around()).unwrap();
         assert_eq!(told.boxes[0].to_string(), "0,0,0,4,2,4:4x2x4");
     }
 

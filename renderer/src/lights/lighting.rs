@@ -1,6 +1,6 @@
 //! Where the lights of a run come from, and how many and how strong those are that are made.
 
-use super::{Generator, PointLight};
+use super::{Generator, Light, SpotShare};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -24,8 +24,8 @@ pub struct Lighting {
 /// Where the lights of one run come from.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LightsFrom {
-    /// Lights that are made, of this number and strength.
-    Generated(Generator, Lighting),
+    /// Lights that are made, of this number and strength, and which part of them are spots.
+    Generated(Generator, Lighting, SpotShare),
     /// Static lights of a CSV file.
     File(PathBuf),
     /// The scene's own point lights.
@@ -91,15 +91,15 @@ impl Lighting {
     }
 
     /// A light of this strength in the world's origin, white.
-    pub(super) fn light(&self) -> PointLight {
-        PointLight::new([0.0; 3], [1.0; 3], self.intensity, self.cutoff, self.r0)
+    pub(super) fn light(&self) -> Light {
+        Light::new([0.0; 3], [1.0; 3], self.intensity, self.cutoff, self.r0)
     }
 
     /// A light that ends at `r1` metres, where its intensity I0*R1^2 has fallen to the cut-off. Its near radius is at most
     /// R1/2.
-    pub(super) fn light_of_radius(&self, position: [f32; 3], tint: [f32; 3], r1: f32) -> PointLight {
+    pub(super) fn light_of_radius(&self, position: [f32; 3], tint: [f32; 3], r1: f32) -> Light {
         let (cutoff, r0) = (self.cutoff, self.r0.min(0.5 * r1));
-        PointLight { position, tint, intensity: cutoff * r1 * r1, cutoff, r0, r1 }
+        Light { position, tint, intensity: cutoff * r1 * r1, cutoff, r0, r1, spot: None }
     }
 
     /// Refuses zero lights, values that are not positive and finite, and R0 not below R1.
@@ -147,7 +147,7 @@ impl LightsFrom {
     /// Number and strength of lights that are made.
     pub fn lighting(&self) -> Option<Lighting> {
         match self {
-            Self::Generated(_, lighting) => Some(*lighting),
+            Self::Generated(_, lighting, _) => Some(*lighting),
             Self::File(_) | Self::Scene => None,
         }
     }
@@ -157,7 +157,7 @@ impl fmt::Display for LightsFrom {
     /// Writes what tells the lights of one run from another's: the count, the file, or `scene`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Generated(_, lighting) => write!(f, "{}", lighting.count),
+            Self::Generated(_, lighting, _) => write!(f, "{}", lighting.count),
             Self::File(path) => write!(f, "{}", path.display()),
             Self::Scene => f.write_str("scene"),
         }

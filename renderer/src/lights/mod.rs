@@ -1,4 +1,4 @@
-//! Point lights of one frame, wherever they come from: a generator (rain, gamma, volumes), a CSV file, the scene.
+//! Point and spot lights of one frame, wherever they come from: a generator (rain, gamma, volumes), a CSV file, the scene.
 
 mod attenuation;
 mod csv_file;
@@ -10,6 +10,8 @@ mod place;
 pub mod rain;
 mod random;
 mod spelled;
+mod spot;
+mod spotted;
 mod volume;
 
 pub use attenuation::Attenuation;
@@ -19,17 +21,20 @@ pub use generator::{Generated, GeneratedBox, Generator, GeneratorKind, Surroundi
 pub use lighting::{Lighting, LightsFrom};
 pub use motion::LightMotion;
 pub use place::{Corners, LightBox};
+pub use spot::{ConeFalloff, Spot};
+pub use spotted::SpotShare;
 pub use volume::{LatticeBox, LightSet, VolumeRecipe};
 
 use self::rain::Rain;
 use self::spelled::spelled;
 use crate::scene::SceneLight;
 use crate::{Error, Result};
+use glam::DVec3;
 use serde::Serialize;
 
-/// A point light. Its influence ends at `r1` (Gelderen appendix A).
+/// A point light, or a spot light. Its influence ends at `r1` (Gelderen appendix A).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct PointLight {
+pub struct Light {
     /// Place of the light in the world, metres.
     pub position: [f32; 3],
     /// Linear colour, multiplies the attenuation.
@@ -42,12 +47,37 @@ pub struct PointLight {
     pub r0: f32,
     /// Influence radius R1 = sqrt(I/I0), metres.
     pub r1: f32,
+    /// The cone that the light shines into; `None` where it shines all around.
+    pub spot: Option<Spot>,
 }
 
-impl PointLight {
+impl Light {
     /// A light whose influence ends at R1 = sqrt(I/I0), where I/d^2 falls to I0 (Gelderen appendix A).
     pub fn new(position: [f32; 3], tint: [f32; 3], intensity: f32, cutoff: f32, r0: f32) -> Self {
-        Self { position, tint, intensity, cutoff, r0, r1: (intensity / cutoff).sqrt() }
+        Self { position, tint, intensity, cutoff, r0, r1: (intensity / cutoff).sqrt(), spot: None }
+    }
+
+    /// The light with its cone, where it has one.
+    pub fn shining(self, spot: Option<Spot>) -> Self {
+        Self { spot, ..self }
+    }
+
+    /// The part of the light that goes through its cone towards a point (world space), 0 to 1 (KHR_lights_punctual).
+    pub fn cone_part(&self, point: DVec3) -> f64 {
+        let towards = (point - DVec3::from_array(self.position.map(f64::from))).normalize_or_zero();
+        self.spot.map_or(1.0, |spot| spot.falloff().at(spot.axis().dot(towards)))
+    }
+
+    /// The smallest sphere around all that the light reaches: middle (world space) and radius, metres.
+    pub fn bounding_sphere(&self) -> (DVec3, f64) {
+        let (position, r1) = (DVec3::from_array(self.position.map(f64::from)), f64::from(self.r1));
+        match &self.spot {
+            None => (position, r1),
+            Some(spot) => {
+                let (along, radius) = spot.bounds(r1);
+                (position + along * spot.axis(), radius)
+            }
+        }
     }
 
     /// This light where its influence ends at `r1` metres: nearer than sqrt(I/I0), the cut-off is raised to I/R1^2, so
@@ -73,7 +103,8 @@ impl PointLight {
         require(positive(self.cutoff), "i0", self.cutoff, "a cut-off above 0")?;
         require(positive(self.r1), "r1", self.r1, "a radius above 0, in metres")?;
         let below = format!("a near radius above 0 and below the influence radius {}", self.r1);
-        require(self.r0 > 0.0 && self.r0 < self.r1, "r0", self.r0, &below)
+        require(self.r0 > 0.0 && self.r0 < self.r1, "r0", self.r0, &below)?;
+        self.spot.map_or(Ok(()), |spot| spot.check())
     }
 }
 
@@ -90,9 +121,25 @@ fn require(
 #[derive(Debug, Clone, Copy)]
 pub struct FrameLights<'a> {
     /// Light k keeps its place from frame to frame.
-    pub list: &'a [PointLight],
+    pub list: &'a [Light],
     /// Two lists of one source with the same revision are the same.
     pub revision: u64,
+}
+
+/// How many lights frames have at most, and whether any of them shines into a cone alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LightTally {
+    /// Most lights of all frames.
+    pub count: u32,
+    /// Whether some are spots: shaders then ask every light for its cone.
+    pub spots: bool,
+}
+
+impl LightTally {
+    /// That of these lights.
+    pub fn of(lights: &[Light]) -> Self {
+        Self { count: lights.len() as u32, spots: lights.iter().any(|light| light.spot.is_some()) }
+    }
 }
 
 /// What gives every frame its lights: those that move, such as rain, or those that stay.
@@ -103,7 +150,7 @@ pub trait LightSource {
 
 /// Lights that do not change.
 #[derive(Debug, Clone, PartialEq)]
-pub struct StaticLights(pub Vec<PointLight>);
+pub struct StaticLights(pub Vec<Light>);
 
 impl LightSource for StaticLights {
     fn at_frame(&mut self, _: u32) -> FrameLights<'_> {
@@ -126,7 +173,7 @@ fn reserve<T>(count: u32) -> Result<Vec<T>> {
     Ok(list)
 }
 
-/// The point lights that a scene brings along (KHR_lights_punctual), with cut-off I0 and near radius R0 (metres).
+/// The point and spot lights that a scene brings along (KHR_lights_punctual), with cut-off I0 and near radius R0 (metres).
 ///
 /// The file's luminous intensity is taken as I as it stands, for both mean E = I/d^2 at distance d; its colour is
 /// the tint. R1 = min(sqrt(I/I0), range): where the range is the shorter one, the light's cut-off is raised to
@@ -136,7 +183,7 @@ fn reserve<T>(count: u32) -> Result<Vec<T>> {
 /// # Errors
 /// [`Error::Input`] where the cut-off or R0 is no number above 0, a light has a value that is no light's, or
 /// no light is left; lights are numbered as the scene has them.
-pub fn from_scene(lights: &[SceneLight], cutoff: f32, r0: f32) -> Result<Vec<PointLight>> {
+pub fn from_scene(lights: &[SceneLight], cutoff: f32, r0: f32) -> Result<Vec<Light>> {
     for (name, value) in [("cut-off I0", cutoff), ("near radius R0", r0)] {
         if !(value.is_finite() && value > 0.0) {
             return Err(Error::input(format!("scene lights: a {name} of {value} is not above 0")));
@@ -154,7 +201,7 @@ pub fn from_scene(lights: &[SceneLight], cutoff: f32, r0: f32) -> Result<Vec<Poi
         .collect::<Result<Vec<_>>>()?;
     if found.is_empty() {
         return Err(Error::input(
-            "the scene has no point lights that reach anything (KHR_lights_punctual); use rain or a lights file",
+            "the scene has no point or spot lights that reach anything (KHR_lights_punctual); use rain or a lights file",
         ));
     }
     Ok(found)
@@ -166,13 +213,13 @@ fn reaches_something(light: &SceneLight) -> bool {
     light.intensity != 0.0 && light.range.is_none_or(bounded)
 }
 
-fn from_scene_light(light: &SceneLight, cutoff: f32, r0: f32) -> PointLight {
-    let unbounded = PointLight::new(light.position.to_array(), light.color, light.intensity, cutoff, r0);
+fn from_scene_light(light: &SceneLight, cutoff: f32, r0: f32) -> Light {
+    let unbounded = Light::new(light.position.to_array(), light.color, light.intensity, cutoff, r0);
     let bounded = match light.range {
         Some(range) if range < unbounded.r1 => unbounded.ending_at(range),
         _ => unbounded,
     };
-    PointLight { r0: r0.min(0.5 * bounded.r1), ..bounded }
+    Light { r0: r0.min(0.5 * bounded.r1), spot: light.spot, ..bounded }
 }
 
 #[cfg(test)]
@@ -183,7 +230,13 @@ mod tests {
     use glam::Vec3;
 
     fn scene_light(intensity: f32, range: Option<f32>) -> SceneLight {
-        SceneLight { position: Vec3::new(1.0, 2.0, 3.0), color: [1.0, 0.5, 0.25], intensity, range }
+        SceneLight {
+            position: Vec3::new(1.0, 2.0, 3.0),
+            color: [1.0, 0.5, 0.25],
+            intensity,
+            range,
+            spot: None,
+        }
     }
 
     #[test]
@@ -209,11 +262,13 @@ mod tests {
     #[test]
     fn scene_lights_that_cannot_be_are_refused() {
         let message = |lights: &[SceneLight]| from_scene(lights, 0.5, 0.1).unwrap_err().to_string();
-        assert!(message(&[]).contains("no point lights"));
-        assert!(message(&[scene_light(0.0, None)]).contains("no point lights"));
+        assert!(message(&[]).contains("no point or spot lights"));
+        assert!(message(&[scene_light(0.0, None)]).contains("no point or spot lights"));
         assert!(message(&[scene_light(-1.0, None)]).starts_with("scene light 0: i: -1"));
         assert!(message(&[scene_light(1.0, None), scene_light(f32::NAN, None)]).starts_with("scene light 1"));
-        assert!(message(&[scene_light(1.0, Some(0.0))]).contains("no point lights that reach anything"));
+        assert!(
+            message(&[scene_light(1.0, Some(0.0))]).contains("no point or spot lights that reach anything")
+        );
         assert!(message(&[scene_light(1.0, Some(-1.0))]).starts_with("scene light 0: r1: -1"));
         assert!(from_scene(&[scene_light(1.0, None)], 0.0, 0.1).is_err());
         assert!(from_scene(&[scene_light(1.0, None)], 0.5, f32::NAN).is_err());

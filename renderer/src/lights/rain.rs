@@ -15,7 +15,7 @@ pub use parameters::RainParameters;
 
 use crate::json::Check;
 use crate::lights::random::uniform_vector;
-use crate::lights::{Lighting, PointLight, reserve};
+use crate::lights::{Light, Lighting, reserve};
 use crate::{Error, Result};
 use drop::Motion;
 use rayon::prelude::*;
@@ -28,10 +28,10 @@ const LIGHTS_PER_TASK: usize = 1024;
 pub struct Rain {
     parameters: RainParameters,
     /// What all lights have in common.
-    template: PointLight,
+    template: Light,
     dt: f32,
     frame: u32,
-    lights: Vec<PointLight>,
+    lights: Vec<Light>,
     motions: Vec<Motion>,
 }
 
@@ -78,7 +78,7 @@ impl Rain {
     }
 
     /// The lights, in the order of their indices.
-    pub fn lights(&self) -> &[PointLight] {
+    pub fn lights(&self) -> &[Light] {
         &self.lights
     }
 
@@ -93,7 +93,7 @@ impl Rain {
         let start = |light| {
             let (position, motion, mut random) = parameters.start(light, 0);
             let tint = uniform_vector(&mut random, [low; 3], [high; 3]);
-            (PointLight { position, tint, ..template }, motion)
+            (Light { position, tint, ..template }, motion)
         };
         let lights = (0..count).into_par_iter().with_min_len(LIGHTS_PER_TASK);
         lights.map(start).unzip_into_vecs(&mut self.lights, &mut self.motions);

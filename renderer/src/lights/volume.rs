@@ -20,7 +20,7 @@ pub use shape::LatticeBox;
 
 use super::place::Corners;
 use super::random::{generator, saturated_hue};
-use super::{Lighting, PointLight, reserve};
+use super::{Light, Lighting, reserve};
 use crate::{Error, Result};
 use glam::{DQuat, DVec3};
 
@@ -91,7 +91,7 @@ impl VolumeRecipe {
     ///
     /// # Errors
     /// [`Error::Input`] where they do not fit into memory, or are not as many as the lighting says.
-    pub(super) fn lights(&self, volumes: &[PlacedVolume], lighting: &Lighting) -> Result<Vec<PointLight>> {
+    pub(super) fn lights(&self, volumes: &[PlacedVolume], lighting: &Lighting) -> Result<Vec<Light>> {
         let mut lights = reserve(lighting.count)?;
         for volume in volumes {
             let template = match volume.r1 {
@@ -100,7 +100,7 @@ impl VolumeRecipe {
             };
             for position in volume.positions() {
                 let tint = saturated_hue(&mut generator(self.seed, lights.len() as u32, 0));
-                lights.push(PointLight { position, tint, ..template });
+                lights.push(Light { position, tint, ..template });
             }
         }
         if lights.len() != lighting.count as usize {

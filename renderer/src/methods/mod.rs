@@ -30,7 +30,7 @@ use crate::Result;
 use crate::assign::{Bounds, ClusterBounds, Clusters};
 use crate::geometry::views::View;
 use crate::geometry::{Grid, SliceLaw, SphereTest};
-use crate::lights::PointLight;
+use crate::lights::Light;
 use crate::measure::Capacities;
 use crate::pass::Recorder;
 use crate::passes::{Depth, Frame, LightLists, Lights};
@@ -55,7 +55,7 @@ pub enum Method {
 #[derive(Debug, Clone, Copy)]
 pub struct Scenery<'a> {
     /// Lights of the frame.
-    pub lights: &'a [PointLight],
+    pub lights: &'a [Light],
     /// Lowest and highest corner of all geometry, metres; `None` without any.
     pub scene: Option<(DVec3, DVec3)>,
     /// How many models the scene has: instances that are drawn.

@@ -21,6 +21,7 @@
 
 use super::handles::{LightLists, Lights, VisibleClusters};
 use super::inputs::Frame;
+use super::lights;
 use super::scan::group_packets;
 use crate::assign::{Assigner, ClusterBounds, ListStore};
 use crate::buffers::{BufferName as B, BufferSet, set};
@@ -37,8 +38,8 @@ pub fn transform_lights(r: &mut Recorder, frame: &Frame, _lights: Lights, visibl
         r.dispatch(&Dispatch::new(
             &frame.pipelines.clustered().transform_lights,
             frame.buffers(visible.clustering),
-            Size::threads(frame.light_count, ASSIGN_WORKGROUP),
-            (set(&[B::Lights]), set(&[B::LightVolumes])),
+            Size::threads(frame.lights.count, ASSIGN_WORKGROUP),
+            (lights::READ, set(&[B::LightVolumes])),
         ));
     });
 }
@@ -49,8 +50,8 @@ pub fn light_rectangles(r: &mut Recorder, frame: &Frame, _lights: Lights, visibl
         r.dispatch(&Dispatch::new(
             frame.pipelines.clustered().light_rectangles(),
             frame.buffers(visible.clustering),
-            Size::threads(frame.light_count, ASSIGN_WORKGROUP),
-            (set(&[B::Lights]), set(&[B::LightRectangles])),
+            Size::threads(frame.lights.count, ASSIGN_WORKGROUP),
+            (lights::READ, set(&[B::LightRectangles])),
         ));
     });
 }
@@ -170,7 +171,9 @@ fn meet(
 fn measured(frame: &Frame) -> BufferSet {
     match frame.bounds {
         ClusterBounds::Cell => BufferSet::EMPTY,
-        ClusterBounds::Depth | ClusterBounds::Box => set(&[B::Lights, B::VisibleClusters, B::ClusterBounds]),
+        ClusterBounds::Depth | ClusterBounds::Box => {
+            lights::READ | set(&[B::VisibleClusters, B::ClusterBounds])
+        }
     }
 }
 

@@ -8,6 +8,7 @@
 
 use super::handles::{Lights, VisibleClusters};
 use super::inputs::Frame;
+use super::lights;
 use crate::assign::light_blocks;
 use crate::buffers::{BufferName as B, set};
 use crate::gpu_interface::DISPATCH_LISTS;
@@ -21,8 +22,8 @@ pub fn cull_lights(r: &mut Recorder, frame: &Frame, _lights: Lights, visible: Vi
         let run = |r: &mut Recorder, pipeline, size, declared| {
             r.dispatch(&Dispatch::new(pipeline, frame.buffers(clustering), size, declared));
         };
-        let by_block = Size::Workgroups(light_blocks(frame.light_count), 1);
-        let (lights, blocks, bits) = (set(&[B::Lights]), set(&[B::BlockBits]), set(&[B::LightBits]));
+        let by_block = Size::Workgroups(light_blocks(frame.lights.count), 1);
+        let (lights, blocks, bits) = (lights::READ, set(&[B::BlockBits]), set(&[B::LightBits]));
         r.clear(&frame.clusterings[clustering].buffers[B::BlockBits]);
         let clusters = set(&[B::State, B::VisibleClusters, B::ClusterBounds]);
         let marked = blocks | set(&[B::Groups]);

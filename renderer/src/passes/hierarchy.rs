@@ -27,14 +27,14 @@ pub fn build_hierarchy(r: &mut Recorder, frame: &Frame, visible: VisibleClusters
         };
         let (state, sorted) = (set(&[B::State]), set(&[B::SortItems, B::DigitCounts]));
         let lights = state | set(&[B::LightVolumes]);
-        for step in 0..sort_passes(frame.light_count) {
+        for step in 0..sort_passes(frame.lights.count) {
             run(r, &pipelines.count_digits, (DISPATCH_SORT, step), (lights, sorted));
             digit_offsets(r, frame, visible, step);
             run(r, &pipelines.reorder, (DISPATCH_SORT, step), (state, sorted));
         }
         let (reads, nodes) =
             (lights | set(&[B::SortItems]), set(&[B::TreeVolumes, B::TreeLights, B::LightNodes]));
-        for depth in (1..tree_depth(frame.light_count)).rev() {
+        for depth in (1..tree_depth(frame.lights.count)).rev() {
             run(r, &pipelines.build_nodes, (DISPATCH_NODES + depth - 1, depth), (reads, nodes));
         }
     });

@@ -1,5 +1,6 @@
 //! What a frame is recorded from.
 
+use super::lights::{self, LightUpload};
 use super::octree::OctreeTables;
 use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction, ListStore, Marking};
 use crate::buffers::{BufferName as B, BufferSet, set};
@@ -172,14 +173,8 @@ pub struct Frame<'a> {
     pub pipeline: ShadingPipeline,
     /// Whether views are shaded; else the frame ends with the light lists.
     pub shaded: bool,
-    /// The lights on the device.
-    pub lights: &'a Buffer,
-    /// The lights as the host wrote them.
-    pub light_staging: &'a Buffer,
-    /// Whether the lights on the device are still those of another frame.
-    pub lights_changed: bool,
-    /// How many lights there are.
-    pub light_count: u32,
+    /// The lights of the frame.
+    pub lights: LightUpload<'a>,
     /// The octree over the lights; `None` where the method has none.
     pub octree: Option<OctreeTables<'a>>,
     /// Where the host finds each clustering's state.
@@ -218,7 +213,7 @@ impl Frame<'_> {
 
     /// What tells the lights of a fragment that is shaded.
     pub fn light_lists(&self) -> BufferSet {
-        self.list_places() | set(&[B::Lights, B::LightIndices, B::OctreeIndices])
+        self.list_places() | lights::READ | set(&[B::LightIndices, B::OctreeIndices])
     }
 
     /// The buffers of a clustering.

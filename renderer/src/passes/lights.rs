@@ -2,16 +2,24 @@
 
 use super::handles::Lights;
 use super::inputs::Frame;
-use crate::gpu_interface::LightData;
+use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::pass::{BufferCopy, Recorder};
+
+/// The buffers that tell what a light is.
+pub const READ: BufferSet = set(&[B::Lights, B::Spots]);
+
+/// The lights of a frame, as the host wrote them and on the device.
+pub struct LightUpload<'a> {
+    /// Copies of the lights and of their cones; nothing is copied that is there already.
+    pub copies: [BufferCopy<'a>; 2],
+    /// How many lights there are.
+    pub count: u32,
+}
 
 /// Copies the frame's lights, unless they are on the device already.
 pub fn record(r: &mut Recorder, frame: &Frame) -> Lights {
     r.scope("lights", |r| {
-        let size = frame.light_count as u64 * size_of::<LightData>() as u64;
-        if frame.lights_changed && size > 0 {
-            r.copy(&BufferCopy { from: frame.light_staging, to: frame.lights, offset: 0, size });
-        }
+        frame.lights.copies.iter().filter(|copy| copy.size > 0).for_each(|copy| r.copy(copy));
     });
     Lights::uploaded()
 }

@@ -38,3 +38,4 @@ pub mod take_places;
 
 pub use handles::{Color, Depth, GBuffer, LightLists, Lights, VisibleClusters};
 pub use inputs::{ColorTarget, DrawBuffers, Draws, Eyes, Frame, ImageLayer, ViewTargets};
+pub use lights::LightUpload;

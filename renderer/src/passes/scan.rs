@@ -118,7 +118,7 @@ pub(super) fn digit_offsets(r: &mut Recorder, frame: &Frame, visible: VisibleClu
     let clustering = visible.clustering;
     let scan = Scan {
         pipelines: &frame.pipelines.accelerated().digit_offsets,
-        items: frame.light_count.div_ceil(SORT_BLOCK) * SORT_DIGITS,
+        items: frame.lights.count.div_ceil(SORT_BLOCK) * SORT_DIGITS,
         size: Some(DISPATCH_SORT_SCAN),
         length: set(&[B::State]),
         summed: set(&[B::DigitCounts]),

@@ -2,7 +2,7 @@
 
 use super::draws::Overlay;
 use super::inputs::Frame;
-use crate::buffers::{BufferName as B, set};
+use super::lights;
 use crate::pipelines::{DebugPipelines, SPHERE_VERTICES};
 
 /// All lights of the frame, in their order.
@@ -10,9 +10,9 @@ pub fn overlay<'a>(frame: &Frame, pipelines: &'a DebugPipelines) -> Overlay<'a> 
     Overlay {
         pipeline: &pipelines.spheres,
         vertices: SPHERE_VERTICES,
-        count: frame.light_count,
+        count: frame.lights.count,
         instances: None,
         closed: true,
-        reads: set(&[B::Lights]),
+        reads: lights::READ,
     }
 }

@@ -56,6 +56,8 @@ pub struct Variant {
     pub attenuation: Attenuation,
     /// What surfaces are made of.
     pub material: MaterialModel,
+    /// Whether some lights have cones.
+    pub spots: bool,
     /// Whether counters are compiled in: the atemporal run.
     pub counting: bool,
 }
@@ -175,6 +177,7 @@ impl Variant {
             .with("LISTS", lists)
             .with("SLICES", self.slices_define())
             .with("LEAVES", u32::from(self.groups == Groups::Leaves))
+            .with("SPOTS", u32::from(self.spots))
             .with("COUNTERS", u32::from(self.counting))
     }
 

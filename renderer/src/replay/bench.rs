@@ -16,7 +16,7 @@ use crate::engine::{
 use crate::geometry::SphereTest;
 use crate::gpu_interface::ClusteringState;
 use crate::inputs::Inputs;
-use crate::lights::{FrameLights, Generator, Lighting, LightsFrom};
+use crate::lights::{FrameLights, Generator, LightTally, Lighting, LightsFrom, SpotShare};
 use crate::methods::Method;
 use crate::output::makes_lists;
 use crate::passes::readback;
@@ -97,7 +97,8 @@ pub fn bench_assign(
     let mut session = Session::new(config, &inputs.scene, inputs.recording.view_set())?;
     session.context.require_timestamps()?;
     for lighting in &bench.lights {
-        let mut source = inputs.light_source(&LightsFrom::Generated(Generator::Rain, *lighting))?;
+        let mut source =
+            inputs.light_source(&LightsFrom::Generated(Generator::Rain, *lighting, SpotShare::default()))?;
         for &frame in &bench.frames {
             let lights = source.at_frame(frame);
             let range = FrameRange { first: frame, end: Some(frame + 1), step: 1 };
@@ -190,7 +191,7 @@ impl TimedFrame<'_> {
     }
 
     fn mode(&self, assigner: Assigner, counting: bool) -> Mode {
-        Mode { assigner, counting, ..Mode::counting(self.run, self.lights.list.len() as u32) }
+        Mode { assigner, counting, ..Mode::counting(self.run, LightTally::of(self.lights.list)) }
     }
 
     /// An engine that has rendered the frame once.

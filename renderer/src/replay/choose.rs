@@ -6,6 +6,7 @@ use crate::config::Config;
 use crate::engine::{COUNTING_SLOT as SLOT, Engine, FramePlan, LargestGrid, Mode, Session, nothing};
 use crate::gpu_interface::ClusteringState;
 use crate::inputs::Inputs;
+use crate::lights::LightTally;
 use crate::output::PlannedRun;
 
 /// What the run names, or else the cheapest by counts of the run's middle frame.
@@ -32,7 +33,7 @@ fn count_once(
     let plan = &plans[plans.len() / 2];
     let mut source = inputs.light_source(&run.lights)?;
     let input = source.at_frame(plan.frame);
-    let lights = input.list.len() as u32;
+    let lights = LightTally::of(input.list);
     // What is counted is the same in every store; of offsets the device tells the sum.
     let config = &Config { lists: vec![ListStore::Offsets], ..run.config.clone() };
     let counting = Mode::counting(config, lights);
@@ -46,7 +47,7 @@ fn count_once(
     engine.shaded = false;
     engine.render(session, SLOT, (plan, input), (&mut nothing, &mut nothing))?;
     let counts = |state: &ClusteringState| AssignCounts {
-        lights,
+        lights: lights.count,
         visible_clusters: state.visible_total,
         light_indices: state.index_total,
         packets: state.packets,

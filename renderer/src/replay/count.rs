@@ -5,7 +5,7 @@ use crate::assign::Assigner;
 use crate::config::ExrFrames;
 use crate::engine::{Engine, FramePlan, LargestGrid, Mode, Session, count_frame, plan_frames};
 use crate::inputs::Inputs;
-use crate::lights::LightSource;
+use crate::lights::{LightSource, LightTally};
 use crate::machine::Conditions;
 use crate::measure::{Extremes, FrameCounts, ViewPixels};
 use crate::output::PlannedRun;
@@ -17,8 +17,8 @@ use std::time::{Duration, Instant, SystemTime};
 pub struct Counted {
     /// Its frames.
     pub(super) plans: Arc<[FramePlan]>,
-    /// Most lights of all frames.
-    pub(super) lights: u32,
+    /// Most lights of all frames, and whether some have cones.
+    pub(super) lights: LightTally,
     /// What is known so far.
     pub(super) result: RunResult,
 }
@@ -60,7 +60,7 @@ pub fn count(
     let mut counted = prepare(inputs, session, run)?;
     count_frames(inputs, session, run, (watch, sink), &mut counted)?;
     let RunResult { counts, .. } = &mut counted.result;
-    if counted.lights > 0 && counts.iter().all(|frame| frame.counters.needed_computations == 0) {
+    if counted.lights.count > 0 && counts.iter().all(|frame| frame.counters.needed_computations == 0) {
         tracing::warn!("{}: no light reaches anything that is seen, in any frame", run.name);
     }
     sink.counted(counts)?;
@@ -90,7 +90,7 @@ pub fn prepare(inputs: &Inputs, session: &mut Session, run: &PlannedRun) -> Resu
         started,
         duration: Duration::ZERO,
     };
-    Ok(Counted { plans: plans.into(), lights: inputs.light_count(&run.lights)?, result })
+    Ok(Counted { plans: plans.into(), lights: inputs.light_tally(&run.lights)?, result })
 }
 
 fn count_frames(

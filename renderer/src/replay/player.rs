@@ -45,7 +45,7 @@ impl<'a> Player<'a> {
     /// They do not.
     pub fn check(&mut self, run: &PlannedRun) -> Result<()> {
         let plans = plan_frames(&run.config, &self.inputs.recording)?;
-        let lights = self.inputs.light_count(&run.lights)?;
+        let lights = self.inputs.light_tally(&run.lights)?;
         for counting in [true, false] {
             // Where counts decide, brute force stands for all: which way it will be is not known yet.
             let assigner = run.assign.fixed().unwrap_or(Assigner::Brute);

@@ -31,8 +31,10 @@ pub struct SceneSummary {
     pub images: Vec<ImageSummary>,
     /// Size in bytes of all images with their mips.
     pub image_bytes: u64,
-    /// Number of point lights.
+    /// Number of point and spot lights.
     pub lights: u64,
+    /// How many of those are spots.
+    pub spots: u64,
     /// Bounds in world space, metres; `None` where nothing is drawn.
     pub bounds: Option<BoundsSummary>,
     /// What was left out or stood in, as [`Scene::warnings`].
@@ -96,6 +98,7 @@ impl Scene {
             images: self.images.iter().map(ImageSummary::new).collect(),
             image_bytes: self.images.iter().map(bytes).sum(),
             lights: self.lights.len() as u64,
+            spots: self.lights.iter().filter(|light| light.spot.is_some()).count() as u64,
             bounds: self
                 .bounds()
                 .map(|(min, max)| BoundsSummary { min: min.to_array(), max: max.to_array() }),
@@ -131,7 +134,10 @@ impl fmt::Display for SceneSummary {
             opaque + mask + blend
         )?;
         writeln!(f, "textures    {} from {} images, {mebibytes:.1} MiB", self.textures, self.images.len())?;
-        writeln!(f, "lights      {}", self.lights)?;
+        match self.spots {
+            0 => writeln!(f, "lights      {}", self.lights)?,
+            spots => writeln!(f, "lights      {}, of which {spots} are spots", self.lights)?,
+        }
         match self.bounds {
             Some(BoundsSummary { min, max }) => {
                 let size = [0, 1, 2].map(|axis| max[axis] - min[axis]);

@@ -19,6 +19,7 @@ use std::path::Path;
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec3, Vec3};
 
+use crate::lights::Spot;
 use crate::{Error, Result};
 
 /// One vertex, as the GPU reads it (60 bytes, scalar layout).
@@ -176,7 +177,7 @@ pub struct Image {
     pub mips: Vec<Vec<u8>>,
 }
 
-/// A point light that a scene brings along (KHR_lights_punctual).
+/// A point or spot light that a scene brings along (KHR_lights_punctual).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneLight {
     /// Place of the light in the world, metres.
@@ -187,13 +188,17 @@ pub struct SceneLight {
     pub intensity: f32,
     /// The file's cut-off distance, if any.
     pub range: Option<f32>,
+    /// The cone that it shines into, if it is a spot.
+    pub spot: Option<Spot>,
 }
 
 impl SceneLight {
     /// Whether all numbers of the light are finite.
     pub(crate) fn is_finite(&self) -> bool {
         let numbers = [self.intensity, self.range.unwrap_or_default()];
-        self.position.is_finite() && self.color.iter().chain(&numbers).all(|x| x.is_finite())
+        let cone =
+            self.spot.map_or([0.0; 5], |Spot { direction: [x, y, z], inner, outer }| [x, y, z, inner, outer]);
+        self.position.is_finite() && self.color.iter().chain(&numbers).chain(&cone).all(|x| x.is_finite())
     }
 }
 

@@ -4,7 +4,7 @@ use crate::Result;
 use crate::geometry::views::Pose;
 use crate::geometry::{ClusterSpace, Frustum, Grid};
 use crate::lights::rain::{Rain, RainParameters};
-use crate::lights::{Lighting, PointLight};
+use crate::lights::{Light, Lighting};
 use crate::methods::{Method, Sharing, Space};
 use glam::{DQuat, DVec3};
 
@@ -39,23 +39,24 @@ pub fn frustum_grid(dimensions: [u32; 3]) -> Grid {
 ///
 /// # Errors
 /// They do not fit into memory.
-pub fn rain(count: u32) -> Result<Vec<PointLight>> {
+pub fn rain(count: u32) -> Result<Vec<Light>> {
     let lighting = Lighting { count, intensity: 20.0, cutoff: 0.5, r0: 0.1 };
     Ok(Rain::new(&RainParameters::default(), &lighting, 1.0 / 90.0, 30)?.lights().to_vec())
 }
 
 /// Lights in a box of `extent` metres to each side, with radii that `radius` makes of numbers from 0 to 1.
-pub fn random_lights(count: u32, seed: u64, extent: f32, radius: impl Fn(f32) -> f32) -> Vec<PointLight> {
+pub fn random_lights(count: u32, seed: u64, extent: f32, radius: impl Fn(f32) -> f32) -> Vec<Light> {
     let mut random = noise(seed);
     let mut unit = move || (random() % 65_536) as f32 / 65_536.0;
     (0..count)
-        .map(|_| PointLight {
+        .map(|_| Light {
             position: [0; 3].map(|_| (2.0 * unit() - 1.0) * extent),
             tint: [1.0; 3],
             intensity: 1.0,
             cutoff: 0.5,
             r0: 0.01,
             r1: radius(unit()),
+            spot: None,
         })
         .collect()
 }

@@ -4,7 +4,7 @@ use crate::Result;
 use crate::config::{Config, Scopes};
 use crate::engine::{Engine, FramePlan, LargestGrid, Mode, Session, look_at_frame, plan_frames};
 use crate::inputs::Inputs;
-use crate::lights::FrameLights;
+use crate::lights::{FrameLights, LightTally};
 use crate::measure::{FrameCounts, ViewPixels};
 use crate::pass::Faults;
 use crate::{config::FrameRange, methods::Method};
@@ -90,7 +90,7 @@ impl Frames {
         let plans = plan_frames(&run, &inputs.recording)?;
         let mut source = inputs.light_source(&run.lights_from()[0])?;
         let lights = source.at_frame(FRAME);
-        let mode = Mode::counting(&run, lights.list.len() as u32);
+        let mode = Mode::counting(&run, LightTally::of(lights.list));
         let mut engine = Engine::new(&mut self.session, &run, LargestGrid::of(&plans), mode)?;
         body(&mut engine, &mut self.session, (&plans[0], lights))
     }

@@ -6,7 +6,7 @@ use super::{Context, Verdict};
 use crate::config::{Assign, Test};
 use crate::engine::workbench::{Case, Lists, Room};
 use crate::geometry::Grid;
-use crate::lights::PointLight;
+use crate::lights::Light;
 use crate::measure::Capacities;
 use crate::methods::Method;
 use crate::{Result, cpu};
@@ -54,7 +54,7 @@ fn lists_by(
     context: &mut Context,
     (assign, room): (Assign, Room),
     (method, grid): (Method, Grid),
-    lights: &[PointLight],
+    lights: &[Light],
 ) -> Result<Lists> {
     let capacities = Capacities {
         visible_clusters: grid.cluster_count() as u32,
@@ -67,7 +67,7 @@ fn lists_by(
     bench.lists()
 }
 
-fn twin_of((method, grid): (Method, Grid), lights: &[PointLight]) -> cpu::LightLists {
+fn twin_of((method, grid): (Method, Grid), lights: &[Light]) -> cpu::LightLists {
     let clusters = grid.cluster_count();
     let visible = cpu::compact(&fragments_of(&bits(&grid), clusters)).visible;
     cpu::assign(&grid, &visible, lights, Test::Auto.of(&method), EPSILON)

@@ -5,6 +5,7 @@ use crate::Result;
 use crate::buffers::BufferName;
 use crate::config::Scopes;
 use crate::engine::{COUNTING_SLOT, Mode, nothing, variant};
+use crate::lights::LightTally;
 use crate::methods::Method;
 use crate::pass::{BufferCopy, Recorder};
 use crate::passes::{Frame, probes};
@@ -49,7 +50,7 @@ fn measure(context: &mut Context) -> Result<[u32; 3]> {
     let method: Method = "indi-persp-64".parse()?;
     let run = frames.run(method);
     frames.with_engine(inputs, (method, Scopes::All), |engine, session, input| {
-        let variant = variant(&run, &Mode::counting(&run, input.1.list.len() as u32));
+        let variant = variant(&run, &Mode::counting(&run, LightTally::of(input.1.list)));
         let probe = session.store.surface_probe(&variant, "selftest/sample_positions.frag")?;
         engine.bind(session, std::slice::from_ref(&probe))?;
         let (usage, size) = (vk::BufferUsageFlags::TRANSFER_DST, size_of::<[u32; 3]>() as u64);

@@ -5,7 +5,7 @@ use super::{Context, Verdict};
 use crate::config::{Assign, Test};
 use crate::engine::workbench::Case;
 use crate::geometry::{CellTest, Grid, LightVolume, SphereTest};
-use crate::lights::PointLight;
+use crate::lights::Light;
 use crate::measure::Capacities;
 use crate::{Result, cpu};
 use glam::DVec3;
@@ -27,7 +27,7 @@ pub fn check(context: &mut Context) -> Result<Verdict> {
         let clusters = grid.cluster_count();
         let bits = random_bits(clusters, 2, 5);
         let visible = cpu::compact(&fragments_of(&bits, clusters)).visible;
-        let (touched, lights): (Vec<u32>, Vec<PointLight>) =
+        let (touched, lights): (Vec<u32>, Vec<Light>) =
             touching_lights(&grid, &visible, 30.0, COUNT)?.into_iter().unzip();
         let capacities = Capacities {
             visible_clusters: clusters as u32,
@@ -62,7 +62,7 @@ pub fn touching_lights(
     visible: &[u32],
     farthest: f64,
     count: usize,
-) -> Result<Vec<(u32, PointLight)>> {
+) -> Result<Vec<(u32, Light)>> {
     let template = rain(1)?[0];
     let mut random = noise(77);
     let mut unit = move || f64::from(random() % 65_536) / 65_536.0;
@@ -79,7 +79,7 @@ pub fn touching_lights(
             -CellTest::new(SphereTest::Exact, grid, cell).margin(&LightVolume::sphere(center, 0.0));
         if distance > 0.01 {
             let r1 = (distance as f32).next_up();
-            found.push((cluster, PointLight { position: position.to_array(), r1, ..template }));
+            found.push((cluster, Light { position: position.to_array(), r1, ..template }));
         }
     }
     Ok(found)

@@ -23,6 +23,7 @@ use crate::config::Config;
 use crate::culling::Culling;
 use crate::engine::{Engine, FramePlan, LargestGrid, Mode, Session, count_frame, plan_frames};
 use crate::inputs::Inputs;
+use crate::lights::LightTally;
 use crate::measure::{FrameCounts, ViewPixels};
 use crate::methods::{Groups, Method, Scenery};
 use crate::output::PlannedRun;
@@ -230,7 +231,7 @@ fn paint(onlooker: &Onlooker, inputs: &Inputs, session: &mut Session, run: &Plan
     let mut source = inputs.light_source(&run.lights)?;
     let lights = source.at_frame(plan.frame);
     // The picture is of the lists, which are the same however they are built.
-    let mode = Mode::counting(config, lights.list.len() as u32);
+    let mode = Mode::counting(config, LightTally::of(lights.list));
     let around = Scenery {
         lights: lights.list,
         scene: session.scene.bounds,

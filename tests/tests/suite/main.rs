@@ -32,6 +32,7 @@ mod report;
 mod results;
 mod selftest;
 mod sphere_tests;
+mod spots;
 mod still;
 mod surfaces;
 mod sweep;

@@ -5,7 +5,7 @@ use glam::DVec3;
 use manylight::assign::{Clusters, Marking};
 use manylight::config::{Config, ExrFrames, FrameRange};
 use manylight::inputs::Inputs;
-use manylight::lights::{Lighting, PointLight};
+use manylight::lights::{Light, Lighting};
 use manylight_tests::{METHODS, Run, methods, run_inputs};
 use std::collections::BTreeMap;
 
@@ -33,7 +33,7 @@ const STREET: [&str; 2] = ["street", "bistro-vive"];
 const HALL: [&str; 2] = ["hall", "hall"];
 
 /// The runs of a configuration, and the lights of its frame.
-fn runs(config: &Config) -> (Vec<Run>, Vec<PointLight>) {
+fn runs(config: &Config) -> (Vec<Run>, Vec<Light>) {
     let inputs = Inputs::load(config).unwrap();
     let runs = run_inputs(config.clone(), &inputs);
     let mut source = inputs.light_source(&runs[0].planned.lights).unwrap();
@@ -52,7 +52,7 @@ fn lists(run: &Run) -> Vec<BTreeMap<u32, &[u32]>> {
 }
 
 /// Checks the list of every pixel of a run; gives how many lights its pixels need together.
-fn lists_have_what_is_needed(run: &Run, lights: &[PointLight]) -> usize {
+fn lists_have_what_is_needed(run: &Run, lights: &[Light]) -> usize {
     let lists = lists(run);
     let mut needed = 0;
     for (number, view) in run.images[0].1.iter().enumerate() {
@@ -61,10 +61,10 @@ fn lists_have_what_is_needed(run: &Run, lights: &[PointLight]) -> usize {
             let Some(place) = view.place(pixel) else { continue };
             // Where no leaf of an octree is, no light may be needed.
             let list = of_view.get(&view.cluster_index[pixel]).copied().unwrap_or_default();
-            let reaches = |light: &PointLight| {
+            let reaches = |light: &Light| {
                 // Depth that was rounded on the way here is off by less than this.
                 let distance = DVec3::from_array(light.position.map(f64::from)).distance(place);
-                distance < f64::from(light.r1) - 2e-3
+                distance < f64::from(light.r1) - 2e-3 && light.cone_part(place) > 1e-3
             };
             let of_pixel: Vec<u32> =
                 (0..).zip(lights).filter(|(_, light)| reaches(light)).map(|(index, _)| index).collect();
@@ -78,8 +78,9 @@ fn lists_have_what_is_needed(run: &Run, lights: &[PointLight]) -> usize {
 
 #[test]
 fn every_list_has_the_lights_that_its_pixels_need() {
-    for scene in [STREET, HALL] {
-        let (runs, lights) = runs(&config(scene, &METHODS[1..]));
+    for (scene, spots) in [(STREET, 0.0), (HALL, 0.0), (STREET, 0.7)] {
+        let spots = spots.try_into().unwrap();
+        let (runs, lights) = runs(&Config { spots, ..config(scene, &METHODS[1..]) });
         let needed: Vec<usize> = runs.iter().map(|run| lists_have_what_is_needed(run, &lights)).collect();
         assert!(needed[0] > 500 && needed.iter().all(|&count| count == needed[0]), "{scene:?} {needed:?}");
     }

@@ -47,7 +47,7 @@ fn a_device_on_which_all_is_well_is_fit_and_every_check_says_what_it_measured() 
 
 #[test]
 fn a_slack_of_nothing_loses_lights_that_touch() {
-    let fault = ("lib/light_volume.glsl", "+ max(grid.slack, grid.slack_per_radius * place.r1)", "");
+    let fault = ("lib/light_volume.glsl", "+ max(grid.slack, grid.slack_per_radius * reach)", "");
     let found = faults(&with_fault(fault, &["lists", "touching"]));
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(found[0].0 == "touching" && found[0].1.contains("are not on its list"), "{found:?}");

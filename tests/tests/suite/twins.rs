@@ -1,6 +1,7 @@
 //! Whole frames of the device against the CPU twins of what its shaders do, and the far plane, where marking and
 //! shading might disagree.
 
+use glam::DVec3;
 use manylight::assign::{Clusters, Marking};
 use manylight::config::{Config, ExrFrames, FrameRange};
 use manylight::cpu::{self, DepthImage, Marks, Visible};
@@ -8,11 +9,11 @@ use manylight::engine::{FramePlan, plan_frames};
 use manylight::geometry::Frustum;
 use manylight::geometry::views::View;
 use manylight::inputs::Inputs;
-use manylight::lights::{Attenuation, GeneratorKind, LightMotion, Lighting, PointLight};
+use manylight::lights::{Attenuation, GeneratorKind, Light, LightMotion, Lighting, Spot};
 use manylight::material::MaterialModel;
 use manylight::measure::{ClusterRecord, ViewPixels};
 use manylight::methods::grid::twin;
-use manylight::shading::Shading;
+use manylight::shading::{Shading, ShadingPipeline};
 use manylight_tests::{Run, run, unpacked};
 use std::path::Path;
 
@@ -45,7 +46,7 @@ fn write_square(path: &Path, distance: f32) {
 
 /// A square at `distance` before a camera in the world's origin that looks along -Z and sees `near` to `far`, with one
 /// light halfway; one frame. The files live as long as the directory.
-fn square(directory: &Path, distance: f32, [near, far]: [f64; 2], light: &PointLight) -> Config {
+fn square(directory: &Path, distance: f32, [near, far]: [f64; 2], light: &Light) -> Config {
     let file = |name: &str| directory.join(name).to_str().unwrap().to_owned();
     write_square(Path::new(&file("square.gltf")), distance);
     let waypoints = serde_json::json!({
@@ -58,8 +59,12 @@ fn square(directory: &Path, distance: f32, [near, far]: [f64; 2], light: &PointL
     std::fs::write(file("waypoints.json"), waypoints.to_string()).unwrap();
     let recording = manylight::recording::bake(file("waypoints.json")).unwrap();
     recording.save(file("still.json")).unwrap();
-    let PointLight { position: [x, y, z], intensity, cutoff, r0, .. } = light;
-    let row = format!("x,y,z,r,g,b,i,i0,r0\n{x},{y},{z},1,1,1,{intensity},{cutoff},{r0}\n");
+    let Light { position: [x, y, z], intensity, cutoff, r0, .. } = light;
+    let cone = light.spot.map_or(",,,,".into(), |Spot { direction: [x, y, z], inner, outer }| {
+        format!("{x},{y},{z},{},{}", inner.to_degrees(), outer.to_degrees())
+    });
+    let header = "x,y,z,r,g,b,i,i0,r0,dx,dy,dz,inner,outer";
+    let row = format!("{header}\n{x},{y},{z},1,1,1,{intensity},{cutoff},{r0},{cone}\n");
     std::fs::write(file("lights.csv"), row).unwrap();
     Config {
         scene: file("square.gltf"),
@@ -220,7 +225,7 @@ fn lists_of_lights_that_other_generators_make_equal_their_twin() {
 /// depth but not by marking from depth.
 #[test]
 fn the_far_plane_has_no_fragment_without_a_cluster() {
-    let light = PointLight::new([0.0, 0.0, -6.0], [1.0; 3], 20.0, 0.5, 0.1);
+    let light = Light::new([0.0, 0.0, -6.0], [1.0; 3], 20.0, 0.5, 0.1);
     for marking in [Marking::Depth, Marking::Geometry] {
         for msaa in [1, 4] {
             let directory = tempfile::tempdir().unwrap();
@@ -255,14 +260,14 @@ fn point_of(frustum: &Frustum, pixel: usize, distance: f64) -> [f64; 3] {
     [x * distance, y * distance, -distance]
 }
 
-fn distance_to(light: &PointLight, point: [f64; 3]) -> f64 {
+fn distance_to(light: &Light, point: [f64; 3]) -> f64 {
     point.iter().zip(light.position).map(|(a, b)| (a - f64::from(b)).powi(2)).sum::<f64>().sqrt()
 }
 
 /// The same light on the same surface: pixels of two functions are to each other as the functions are.
 #[test]
 fn attenuations_equal_their_twin() {
-    let light = PointLight::new([0.3, 0.2, -4.0], [1.0; 3], 8.0, 0.5, 0.1);
+    let light = Light::new([0.3, 0.2, -4.0], [1.0; 3], 8.0, 0.5, 0.1);
     let directory = tempfile::tempdir().unwrap();
     let config = Config {
         methods: vec!["indi-persp-8".parse().unwrap()],
@@ -299,10 +304,56 @@ fn attenuations_equal_their_twin() {
     }
 }
 
+/// A spot light shows what the point light in its place does, times its cone's falloff; narrow and wide, along the surface's normal
+/// and across it.
+#[test]
+fn cones_equal_their_twin() {
+    let point = Light::new([0.3, 0.2, -3.0], [1.0; 3], 8.0, 0.5, 0.1);
+    let directory = tempfile::tempdir().unwrap();
+    let config = |light: &Light| Config {
+        methods: ["all-lights", "indi-persp-8", "hashed-0.5-1"].map(|name| name.parse().unwrap()).to_vec(),
+        pipeline: vec![ShadingPipeline::Forward, ShadingPipeline::Deferred],
+        ..square(directory.path(), 5.0, [0.4, 20.0], light)
+    };
+    let frustum = plan(&config(&point)).views[0].frustum;
+    let all_around = run(config(&point)).remove(0);
+    for (direction, degrees) in [
+        ([0.0, 0.0, -1.0], [10.0_f32, 30.0]),
+        ([0.5, 0.2, -1.0], [40.0, 40.0]),
+        ([1.0, 0.0, 0.0], [0.0, 85.0]),
+    ] {
+        let [inner, outer] = degrees.map(f32::to_radians);
+        let spot = point.shining(Some(Spot::new(direction, inner, outer)));
+        for run in run(config(&spot)) {
+            let name = &run.planned.name;
+            let (mut lit_pixels, mut needed) = (0, 0);
+            for pixel in 0..32 * 18 {
+                let part = spot.cone_part(DVec3::from_array(point_of(&frustum, pixel, 5.0)));
+                let expected = lit(&all_around, pixel) * part;
+                // Where a cone ends at once, the last bits of a position decide.
+                let edge = if inner < outer { 0.0 } else { 0.3 * expected };
+                let tolerance = 0.01 * expected + 4e-3 + edge;
+                assert!(
+                    (lit(&run, pixel) - expected).abs() < tolerance,
+                    "{name} {degrees:?}: {} instead of {expected}",
+                    lit(&run, pixel)
+                );
+                lit_pixels += u64::from(expected > 0.02);
+                needed += u64::from(lit(&run, pixel) > 2e-3);
+            }
+            let counted = run.counts[0].counters.needed_computations;
+            assert!(
+                lit_pixels > 20 && counted >= needed && counted < 32 * 18,
+                "{name} {lit_pixels} {counted}"
+            );
+        }
+    }
+}
+
 /// White surfaces show 0.1 + 0.9 n.l (1 - d/R1)^2, nothing of a Cook-Torrance reflection and no 1/pi.
 #[test]
 fn the_white_material_equals_its_formula() {
-    let light = PointLight::new([0.3, 0.2, -4.0], [1.0; 3], 8.0, 0.5, 0.1);
+    let light = Light::new([0.3, 0.2, -4.0], [1.0; 3], 8.0, 0.5, 0.1);
     let directory = tempfile::tempdir().unwrap();
     let config = Config {
         methods: vec!["indi-persp-8".parse().unwrap()],

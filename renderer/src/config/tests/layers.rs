@@ -1,6 +1,7 @@
 //! How files and flags go over one another.
 
 use super::*;
+use crate::lights::SpotShare;
 
 #[test]
 fn layers_replace_what_they_give_and_leave_the_rest() {
@@ -34,7 +35,7 @@ fn every_spelling_of_the_text_is_the_same_configuration() {
 #[test]
 fn sources_of_light_replace_each_other_as_one() {
     let sources = |layers: &[&str]| resolved(layers).unwrap().lights_from();
-    let rain = vec![LightsFrom::Generated(Generator::Rain, Lighting::with_count(7))];
+    let rain = vec![LightsFrom::Generated(Generator::Rain, Lighting::with_count(7), SpotShare::default())];
     assert_eq!(sources(&[r#"{"lights_file": "l.csv"}"#]), [LightsFrom::File("l.csv".into())]);
     assert_eq!(sources(&[r#"{"scene_lights": true}"#]), [LightsFrom::Scene]);
     assert_eq!(sources(&[r#"{"lights_file": "l.csv"}"#, r#"{"lights": [{"count": 7}]}"#]), rain);
@@ -48,7 +49,7 @@ fn sources_of_light_replace_each_other_as_one() {
 fn a_generator_is_replaced_with_all_that_was_said_to_it() {
     let last = |layers: &[&str]| resolved(layers).unwrap().lights_from().remove(0);
     let generator = |layers: &[&str]| match last(layers) {
-        LightsFrom::Generated(generator, _) => generator,
+        LightsFrom::Generated(generator, ..) => generator,
         other => panic!("{other}"),
     };
     let gamma = r#"{"light_source": "gamma", "light_seed": 9, "light_radius_mean": 2, "light_box": "rain"}"#;
@@ -73,7 +74,11 @@ fn a_generator_is_replaced_with_all_that_was_said_to_it() {
     let seven = last(&[gamma, r#"{"lights": [{"count": 7}]}"#]);
     assert_eq!(
         seven,
-        LightsFrom::Generated(Generator::Gamma(LightBox::Rain, recipe), Lighting::with_count(7))
+        LightsFrom::Generated(
+            Generator::Gamma(LightBox::Rain, recipe),
+            Lighting::with_count(7),
+            SpotShare::default()
+        )
     );
 }
 

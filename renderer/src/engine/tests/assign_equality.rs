@@ -8,7 +8,7 @@ use crate::geometry::SphereTest;
 fn lists_of(
     (assign, test, lists_room): (Assign, Test, Room),
     (method, grid): (Method, Grid),
-    sets: &[Vec<PointLight>],
+    sets: &[Vec<Light>],
     bits: &[u32],
 ) -> Vec<Lists> {
     let most = sets.iter().max_by_key(|lights| lights.len()).expect("a case has lights");
@@ -31,10 +31,9 @@ fn lists_of(
 }
 
 /// Lights that trees and ranges may stumble over, each set beside ordinary ones of a like number.
-fn light_sets() -> Vec<Vec<PointLight>> {
+fn light_sets() -> Vec<Vec<Light>> {
     let ahead = pose().transform_point(DVec3::new(0.5, 0.3, -9.0)).as_vec3().to_array();
-    let one_place =
-        |count| vec![PointLight { position: ahead, ..random_lights(1, 3, 1.0, |_| 6.0)[0] }; count];
+    let one_place = |count| vec![Light { position: ahead, ..random_lights(1, 3, 1.0, |_| 6.0)[0] }; count];
     vec![
         vec![],
         random_lights(1, 1, 1.0, |_| 3.0),
@@ -52,7 +51,7 @@ fn light_sets() -> Vec<Vec<PointLight>> {
     ]
 }
 
-fn all_ways_agree((method, grid): (Method, Grid), test: Test, sets: &[Vec<PointLight>]) {
+fn all_ways_agree((method, grid): (Method, Grid), test: Test, sets: &[Vec<Light>]) {
     let bits = random_bits(grid.cluster_count(), 7, 11);
     let brute = lists_of((Assign::Brute, test, Room::Plenty), (method, grid), sets, &bits);
     let ways = [

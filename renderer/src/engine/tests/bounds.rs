@@ -10,6 +10,8 @@ use crate::geometry::{ClusterSpace, MeasuredBounds, SliceLaw, Slices};
 use crate::gpu_interface::PixelData;
 use crate::passes::{Depth, cull, mark, pixel_clusters};
 use crate::selftest::cases::noise;
+use crate::vk::{Buffer, Memory};
+use ash::vk;
 
 /// What f32 may make of tangents, of metres, and of depths in parts of them.
 const CLOSE: f64 = 2e-5;
@@ -157,7 +159,7 @@ pub(super) fn random_bounds(grid: &Grid, clusters: &[u32]) -> Vec<MeasuredBounds
 pub(super) fn with_clusters(
     config: &Config,
     (method, grid): (Method, Grid),
-    lights: &[PointLight],
+    lights: &[Light],
 ) -> (Bench, Vec<u32>) {
     let room = Capacities {
         visible_clusters: grid.cluster_count() as u32,

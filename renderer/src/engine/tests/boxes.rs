@@ -78,7 +78,7 @@ fn no_touching_light_is_lost_by_boxes() {
     let grid = frustum_grid([7, 6, 13]);
     for farthest in [30.0, 20_000.0] {
         let clusters: Vec<u32> = (0..grid.cluster_count() as u32).collect();
-        let (touched, lights): (Vec<u32>, Vec<PointLight>) =
+        let (touched, lights): (Vec<u32>, Vec<Light>) =
             touching_lights(&grid, &clusters, farthest, 4000).unwrap().into_iter().unzip();
         let room = Capacities { visible_clusters: 600, light_indices: 3_000_000, ..Capacities::default() };
         let mut bench = Bench::new(ORTIZ, grid, &lights, room);

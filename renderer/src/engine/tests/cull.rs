@@ -7,6 +7,8 @@ use crate::geometry::Frustum;
 use crate::geometry::views::{Mirror, Pose, View};
 use crate::gpu_interface::DrawCommand;
 use crate::passes::cull;
+use crate::vk::{Buffer, Memory};
+use ash::vk;
 use glam::DQuat;
 
 /// How close to a plane f32 may decide otherwise, metres: the planes' slack is below it.

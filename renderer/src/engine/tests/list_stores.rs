@@ -17,13 +17,13 @@ struct Scenario {
     config: Config,
     method: Method,
     grid: Grid,
-    lights: Vec<PointLight>,
+    lights: Vec<Light>,
     /// Where the last lists were made, whose device and shaders serve the next.
     last: Cell<Option<Bench>>,
 }
 
 impl Scenario {
-    fn new(config: &Config, method: Method, grid: Grid, lights: &[PointLight]) -> Self {
+    fn new(config: &Config, method: Method, grid: Grid, lights: &[Light]) -> Self {
         Self { config: config.clone(), method, grid, lights: lights.to_vec(), last: Cell::default() }
     }
 }

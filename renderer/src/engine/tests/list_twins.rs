@@ -26,7 +26,7 @@ struct CulledDevice {
 }
 
 impl CulledDevice {
-    fn new(assign: Assign, (method, grid): (Method, Grid), test: &str, lights: &[PointLight]) -> Self {
+    fn new(assign: Assign, (method, grid): (Method, Grid), test: &str, lights: &[Light]) -> Self {
         let clusters = grid.cluster_count();
         let bits = random_bits(clusters, 7, 11);
         let visible = cpu::compact(&fragments_of(&bits, clusters)).visible;
@@ -115,7 +115,7 @@ fn unpack(words: [u32; 3]) -> CellRange {
 }
 
 /// Grids of both spaces and lights of many sizes.
-fn cases() -> Vec<((Method, Grid), &'static str, Vec<PointLight>)> {
+fn cases() -> Vec<((Method, Grid), &'static str, Vec<Light>)> {
     let mixed = || random_lights(3001, 4, 40.0, |u| 0.02 * 10_000f32.powf(u * u));
     let persp = (PERSP, frustum_grid([13, 9, 21]));
     let ortho = (ORTHO, box_grid([17, 13, 11]));

@@ -4,7 +4,7 @@ use super::*;
 use crate::config::FrameRange;
 use crate::engine::{count_frame, plan_frames};
 use crate::inputs::Inputs;
-use crate::lights::Lighting;
+use crate::lights::{LightTally, Lighting};
 use crate::measure::{ClusterLists, ViewPixels};
 use crate::octree::LinklessOctree;
 
@@ -52,7 +52,7 @@ fn leaves_of_pixels_are_their_twins() {
         let plan = &plan_frames(&run, &inputs.recording).unwrap()[0];
         let mut source = inputs.light_source(&run.lights_of_run()).unwrap();
         let lights = source.at_frame(300);
-        let mode = Mode::counting(&run, lights.list.len() as u32);
+        let mode = Mode::counting(&run, LightTally::of(lights.list));
         let mut engine = Engine::new(&mut session, &run, LargestGrid::default(), mode).unwrap();
         let names = ["left", "right"].map(str::to_owned);
         let mut lists: Vec<ClusterLists> = vec![];

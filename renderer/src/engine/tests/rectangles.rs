@@ -18,7 +18,7 @@ fn seen(config: &Config, assign: Assign) -> Config {
 }
 
 /// Lights from centimetres to more than the grid, many of them around the eye.
-fn mixed() -> Vec<PointLight> {
+fn mixed() -> Vec<Light> {
     let near = random_lights(400, 3, 4.0, |u| 0.05 + 3.0 * u);
     [random_lights(3001, 4, 40.0, |u| 0.02 * 3000f32.powf(u * u)), near].concat()
 }

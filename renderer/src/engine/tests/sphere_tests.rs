@@ -26,12 +26,12 @@ fn tests_of(method: Method) -> impl Iterator<Item = SphereTest> {
 struct Case {
     grid: Grid,
     visible: Vec<u32>,
-    lights: Vec<PointLight>,
+    lights: Vec<Light>,
     bits: Vec<u32>,
 }
 
 impl Case {
-    fn new(grid: Grid, lights: Vec<PointLight>) -> Self {
+    fn new(grid: Grid, lights: Vec<Light>) -> Self {
         let clusters = grid.cluster_count();
         let bits = random_bits(clusters, 2, 5);
         let visible = cpu::compact(&fragments_of(&bits, clusters)).visible;
@@ -55,7 +55,7 @@ impl Case {
 }
 
 /// Lists of the device equal the twin's, but for pairs that the twin itself marks as too close to call.
-fn lists_equal_their_twin((method, grid): (Method, Grid), test: SphereTest, lights: Vec<PointLight>) {
+fn lists_equal_their_twin((method, grid): (Method, Grid), test: SphereTest, lights: Vec<Light>) {
     let case = Case::new(grid, lights);
     let lists = case.lists(method, test);
     let twin = cpu::assign(&grid, &case.visible, &case.lights, test, 1e-4);
@@ -89,7 +89,7 @@ fn lists_of_all_tests_equal_their_twins() {
 
 fn no_touching_light_is_lost(method: Method, grid: Grid, farthest: f64) {
     let visible = Case::new(grid, vec![]).visible;
-    let (touched, lights): (Vec<u32>, Vec<PointLight>) =
+    let (touched, lights): (Vec<u32>, Vec<Light>) =
         touching_lights(&grid, &visible, farthest, 4000).unwrap().into_iter().unzip();
     let case = Case::new(grid, lights);
     for test in tests_of(method) {

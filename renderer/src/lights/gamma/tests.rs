@@ -8,7 +8,7 @@ fn recipe() -> GammaRecipe {
     GammaRecipe { seed: 1, radii: GammaRadii::default(), motion: LightMotion::Static }
 }
 
-fn lights(recipe: &GammaRecipe, count: u32, frame: u32) -> Vec<PointLight> {
+fn lights(recipe: &GammaRecipe, count: u32, frame: u32) -> Vec<Light> {
     let mut made = GammaLights::new(recipe, &Lighting::with_count(count), ROOM, DT).unwrap();
     made.at_frame(frame).list.to_vec()
 }
@@ -79,7 +79,7 @@ fn radii_follow_the_density_everywhere() {
 fn pinned_lights_are_the_same_on_every_machine() {
     let made = lights(&recipe(), 1000, 0);
     let found = [0, 1, 999].map(|light: usize| {
-        let PointLight { position: [x, y, z], tint: [r, ..], r1, .. } = made[light];
+        let Light { position: [x, y, z], tint: [r, ..], r1, .. } = made[light];
         [x, y, z, r, r1].map(f32::to_bits)
     });
     assert_eq!(found, PINNED, "{found:#010x?}");
@@ -108,7 +108,7 @@ fn lights_end_at_their_radius_where_they_have_fallen_to_the_cutoff() {
 #[test]
 fn lights_fill_the_box_and_the_tints() {
     let made = lights(&recipe(), 20_000, 0);
-    let mean = |value: &dyn Fn(&PointLight) -> f32| {
+    let mean = |value: &dyn Fn(&Light) -> f32| {
         moments(&made.iter().map(|l| f64::from(value(l))).collect::<Vec<_>>())[0]
     };
     for axis in 0..3 {

@@ -11,7 +11,7 @@ fn rain(count: u32, frame: u32) -> Rain {
     Rain::new(&RainParameters::default(), &lighting(count), DT, frame).unwrap()
 }
 
-fn bits(light: &PointLight) -> [u32; 6] {
+fn bits(light: &Light) -> [u32; 6] {
     let ([x, y, z], [r, g, b]) = (light.position, light.tint);
     [x, y, z, r, g, b].map(f32::to_bits)
 }

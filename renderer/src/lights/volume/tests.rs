@@ -20,7 +20,7 @@ fn placed(recipe: &VolumeRecipe, count: u32) -> Vec<PlacedVolume> {
     recipe.placed(count, place).unwrap()
 }
 
-fn lights(recipe: &VolumeRecipe, count: u32) -> Vec<PointLight> {
+fn lights(recipe: &VolumeRecipe, count: u32) -> Vec<Light> {
     recipe.lights(&placed(recipe, count), &Lighting::with_count(count)).unwrap()
 }
 

@@ -21,12 +21,12 @@ pub use way::OctreeWay;
 
 use super::{Method, Size, Unit};
 use crate::clustering::SLACK_PER_METRE;
-use crate::lights::PointLight;
+use crate::lights::Light;
 use crate::octree::{OctreeSettings, Sphere};
 use crate::pass::Recorder;
 use crate::passes::{Depth, Frame, LightLists, octree};
 use crate::{Error, Result};
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 /// Deepest start: a table then has a slot for each of two million nodes.
 const MOST_START_DEPTH: u32 = 7;
@@ -75,7 +75,7 @@ impl HashedMethod {
     }
 
     /// How the octree over a frame's lights is built.
-    pub fn settings(&self, lights: &[PointLight]) -> OctreeSettings {
+    pub fn settings(&self, lights: &[Light]) -> OctreeSettings {
         let node = match self.node {
             NodeSize::Metres(metres) => metres,
             NodeSize::Radii(radii) => radii * smallest_radius(lights),
@@ -85,21 +85,21 @@ impl HashedMethod {
 }
 
 /// Radius of the smallest light, metres; 1 without any, for then nodes may have any size.
-fn smallest_radius(lights: &[PointLight]) -> f64 {
+fn smallest_radius(lights: &[Light]) -> f64 {
     let radii = lights.iter().map(|light| f64::from(light.r1));
     radii.min_by(f64::total_cmp).unwrap_or(1.0)
 }
 
 /// What lights reach, with `slack` metres to cover what rounding moves a fragment by; the place of a light among them is its own.
-pub fn reaches(lights: &[PointLight], slack: f64) -> impl Iterator<Item = Sphere> + '_ {
-    lights.iter().map(move |light| Sphere {
-        centre: Vec3::from(light.position).as_dvec3(),
-        radius: f64::from(light.r1) * (1.0 + f64::from(SLACK_PER_METRE)) + slack,
+pub fn reaches(lights: &[Light], slack: f64) -> impl Iterator<Item = Sphere> + '_ {
+    lights.iter().map(Light::bounding_sphere).map(move |(centre, radius)| Sphere {
+        centre,
+        radius: radius * (1.0 + f64::from(SLACK_PER_METRE)) + slack,
     })
 }
 
 /// The box around what all lights reach, metres; `None` without lights.
-pub fn bounds(lights: &[PointLight]) -> Option<(DVec3, DVec3)> {
+pub fn bounds(lights: &[Light]) -> Option<(DVec3, DVec3)> {
     let corners = reaches(lights, 0.0).map(|Sphere { centre, radius }| (centre - radius, centre + radius));
     corners.reduce(|(low, high), other| (low.min(other.0), high.max(other.1)))
 }

@@ -1,12 +1,12 @@
 use super::*;
 use crate::gpu_interface::{HashData, OctreeData};
-use crate::lights::PointLight;
+use crate::lights::Light;
 use crate::octree::LinklessOctree;
 use glam::UVec3;
 use proptest::prelude::*;
 
-fn light(position: [f32; 3], r1: f32) -> PointLight {
-    PointLight { position, tint: [1.0; 3], intensity: 1.0, cutoff: 1.0, r0: 0.01, r1 }
+fn light(position: [f32; 3], r1: f32) -> Light {
+    Light { position, tint: [1.0; 3], intensity: 1.0, cutoff: 1.0, r0: 0.01, r1, spot: None }
 }
 
 fn hashed(name: &str) -> HashedMethod {

@@ -58,12 +58,12 @@ pub fn sheared_note(scene: &Scene) -> Option<String> {
 mod tests {
     use super::*;
     use crate::draw_list::Batches;
-    use crate::lights::PointLight;
+    use crate::lights::Light;
     use crate::methods::GridBox;
     use crate::scene::procedural::by_name;
 
-    fn light(position: [f32; 3], r1: f32) -> PointLight {
-        PointLight { position, tint: [1.0; 3], intensity: 1.0, cutoff: 1.0, r0: 0.01, r1 }
+    fn light(position: [f32; 3], r1: f32) -> Light {
+        Light { position, tint: [1.0; 3], intensity: 1.0, cutoff: 1.0, r0: 0.01, r1, spot: None }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::Scenery;
 use crate::geometry::views::Pose;
 use crate::geometry::{ClusterSpace, Grid};
-use crate::lights::PointLight;
+use crate::lights::Light;
 use clap::ValueEnum;
 use glam::{DVec3, Vec3};
 use schemars::JsonSchema;
@@ -43,8 +43,8 @@ pub fn settled(grid: &Grid, around: &Scenery) -> Grid {
 }
 
 /// The box around the centres of lights; `None` of none.
-fn bounds(lights: &[PointLight]) -> Option<Corners> {
-    let corners = |(low, high): (Vec3, Vec3), light: &PointLight| {
+fn bounds(lights: &[Light]) -> Option<Corners> {
+    let corners = |(low, high): (Vec3, Vec3), light: &Light| {
         let place = Vec3::from(light.position);
         (low.min(place), high.max(place))
     };

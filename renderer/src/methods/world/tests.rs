@@ -2,17 +2,17 @@ use super::*;
 use crate::assign::Clusters;
 use crate::cpu::Visible;
 use crate::geometry::SphereTest;
-use crate::lights::PointLight;
+use crate::lights::Light;
 use crate::methods::grid;
 use proptest::prelude::*;
 
 const SCENE: Option<(DVec3, DVec3)> = Some((DVec3::new(-40.0, -1.0, -60.0), DVec3::new(90.0, 12.0, 30.0)));
 
-fn light(position: [f32; 3], r1: f32) -> PointLight {
-    PointLight { position, tint: [1.0; 3], intensity: 1.0, cutoff: 1.0, r0: 0.01, r1 }
+fn light(position: [f32; 3], r1: f32) -> Light {
+    Light { position, tint: [1.0; 3], intensity: 1.0, cutoff: 1.0, r0: 0.01, r1, spot: None }
 }
 
-fn placed(cells: f64, lights: &[PointLight], grid_box: GridBox) -> Grid {
+fn placed(cells: f64, lights: &[Light], grid_box: GridBox) -> Grid {
     let around = Scenery { lights, scene: SCENE, models: 0, grid_box };
     Method::World(WorldGrid { cells }).settled(&plan(WorldGrid { cells }).unwrap(), &around)
 }

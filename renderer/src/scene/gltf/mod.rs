@@ -6,7 +6,7 @@
 //!
 //! Read: node hierarchies of the default scene, instances, skins and morph targets at rest, triangle lists, strips and
 //! fans, vertex colours, two texture coordinate sets a material, sparse, quantized and meshopt-compressed accessors,
-//! metallic-roughness and unlit materials, point lights. Ignored: animation, cameras. What else changes the picture is
+//! metallic-roughness and unlit materials, point and spot lights. Ignored: animation, cameras. What else changes the picture is
 //! left out with a warning (`left_out`), or refused where the file requires it.
 
 mod accessor;

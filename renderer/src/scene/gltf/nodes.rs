@@ -16,6 +16,8 @@ use super::instancing;
 use super::left_out::LeftOut;
 use super::skin::Skin;
 use crate::Result;
+use crate::lights::Spot;
+use std::f32::consts::FRAC_PI_4;
 
 /// Most meshes at nodes; more are refused: a small file can ask for any number of them.
 pub(super) const MAX_PLACED: usize = 1 << 22;
@@ -30,7 +32,7 @@ pub(super) struct Placed {
     pub meshes: Vec<PlacedMesh>,
     /// Skins of shapes, by place in the document.
     pub skins: BTreeMap<usize, Skin>,
-    /// Point lights of the scene.
+    /// Point and spot lights of the scene.
     pub lights: Vec<SceneLight>,
 }
 
@@ -177,7 +179,7 @@ impl Walk<'_> {
         let light = node.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref());
         if let Some(light) = light {
             let light = self.document.get(light.light)?;
-            self.light(&light, world_from_node.w_axis.truncate());
+            self.light(&light, world_from_node);
         }
         Ok(())
     }
@@ -227,12 +229,16 @@ impl Walk<'_> {
         Ok(())
     }
 
-    fn light(&mut self, light: &Light, position: DVec3) {
-        if light.type_ != Checked::Valid(Type::Point) {
-            return self.left_out.add("spot and directional lights left out", 1);
-        }
+    fn light(&mut self, light: &Light, world_from_node: DMat4) {
+        let spot = match light.type_ {
+            Checked::Valid(Type::Point) => None,
+            Checked::Valid(Type::Spot) => Some(cone(light, world_from_node)),
+            // They reach everything, so that no list would leave any out.
+            _ => return self.left_out.add("directional lights left out", 1),
+        };
         let found = SceneLight {
-            position: position.as_vec3(),
+            position: world_from_node.w_axis.truncate().as_vec3(),
+            spot,
             color: light.color,
             intensity: light.intensity,
             range: light.range,
@@ -243,6 +249,15 @@ impl Walk<'_> {
             self.left_out.add("lights with a number that is not finite, left out", 1);
         }
     }
+}
+
+/// The cone of a spot light, which shines along its node's -Z.
+fn cone(light: &Light, world_from_node: DMat4) -> Spot {
+    let [inner, outer] = match &light.spot {
+        Some(spot) => [spot.inner_cone_angle, spot.outer_cone_angle],
+        None => [0.0, FRAC_PI_4],
+    };
+    Spot::new((-world_from_node.z_axis.truncate()).normalize_or_zero().as_vec3().to_array(), inner, outer)
 }
 
 fn mesh_weights(mesh: &Value) -> Result<Vec<f32>, String> {

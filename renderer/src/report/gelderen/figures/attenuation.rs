@@ -1,7 +1,7 @@
 //! Attenuation curves (A.1).
 
 use crate::cpu::attenuation;
-use crate::lights::{Attenuation, PointLight};
+use crate::lights::{Attenuation, Light};
 use crate::report::chart::{Chart, Key, Look, Plot, Series, palette::NAMED};
 use crate::report::figure::Figure;
 
@@ -12,7 +12,7 @@ const POINTS: usize = 241;
 
 /// The functions at the parameters of Gelderen's figure A.1.
 pub fn figure() -> Figure {
-    let light = PointLight::new([0.0; 3], [1.0; 3], 1.0, 0.25, 0.75);
+    let light = Light::new([0.0; 3], [1.0; 3], 1.0, 0.25, 0.75);
     let look = |index: usize, function| Look {
         dashed: matches!(function, Attenuation::Lin | Attenuation::Stp),
         bold: function == Attenuation::default(),

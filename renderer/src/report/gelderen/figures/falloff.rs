@@ -4,7 +4,7 @@ use crate::Result;
 use crate::cpu::{LightLists, Surface, assign, attenuation, reflected};
 use crate::geometry::views::{Pose, View};
 use crate::geometry::{DisplacedVolume, Frustum, Grid, SphereTest};
-use crate::lights::{Attenuation, PointLight};
+use crate::lights::{Attenuation, Light};
 use crate::methods::grid::plan;
 use crate::methods::{Sharing, Space};
 use crate::output::{cubehelix, tone_map};
@@ -141,7 +141,7 @@ impl Floor {
     }
 
     /// The lists of all clusters.
-    fn lists(&self, lights: &[PointLight]) -> LightLists {
+    fn lists(&self, lights: &[Light]) -> LightLists {
         let clusters: Vec<u32> = (0..self.grid.cluster_count() as u32).collect();
         assign(&self.grid, &clusters, lights, SphereTest::HALF_SPACES, 0.0)
     }
@@ -157,7 +157,7 @@ impl Floor {
         &self,
         at: DVec2,
         function: Attenuation,
-        lights: &[PointLight],
+        lights: &[Light],
         lists: Option<&LightLists>,
     ) -> DVec3 {
         let Some(point) = self.seen(at) else { return DVec3::ZERO };
@@ -169,12 +169,12 @@ impl Floor {
             f0: DVec3::splat(0.04),
             alpha: 0.06,
         };
-        let lit = |light: &PointLight| {
+        let lit = |light: &Light| {
             let away = position(light) - point;
             let tint = Vec3::from(light.tint).as_dvec3();
             reflected(&surface, away.normalize()) * tint * attenuation(function, light, away.length())
         };
-        let endless = |&light: &u32| PointLight { r1: f32::INFINITY, ..lights[light as usize] };
+        let endless = |&light: &u32| Light { r1: f32::INFINITY, ..lights[light as usize] };
         let sum: DVec3 = match lists {
             Some(lists) => self.listed(point, lists).iter().map(endless).map(|light| lit(&light)).sum(),
             None => lights.iter().map(lit).sum(),
@@ -194,15 +194,15 @@ impl Floor {
 }
 
 /// Seven lights over the floor.
-fn lights(cutoff: f32) -> [PointLight; 7] {
+fn lights(cutoff: f32) -> [Light; 7] {
     std::array::from_fn(|i| {
         let (x, row) = ((i % 4) as f32 * 3.0 + if i < 4 { -4.5 } else { -3.0 }, i / 4);
         let tint = [[1.0, 0.85, 0.7], [0.7, 0.85, 1.0], [1.0, 0.7, 0.8]][i % 3];
-        PointLight::new([x, 0.8, -3.0 * row as f32 + 1.5], tint, INTENSITY, cutoff, NEAR_RADIUS)
+        Light::new([x, 0.8, -3.0 * row as f32 + 1.5], tint, INTENSITY, cutoff, NEAR_RADIUS)
     })
 }
 
-fn position(light: &PointLight) -> DVec3 {
+fn position(light: &Light) -> DVec3 {
     Vec3::from(light.position).as_dvec3()
 }
 

@@ -5,6 +5,8 @@ use serde_json::json;
 
 use super::super::super::mesh::PLAIN_VERTEX;
 use super::*;
+use crate::lights::Spot;
+use std::f32::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
 
 fn quarter_turn() -> Quat {
     Quat::from_rotation_y(std::f32::consts::FRAC_PI_2)
@@ -199,7 +201,7 @@ fn strips_and_fans_become_lists_and_points_are_skipped() {
 }
 
 #[test]
-fn point_lights_are_placed_and_others_left_out() {
+fn point_and_spot_lights_are_placed_and_directional_ones_left_out() {
     let mut asset = Asset::triangle();
     asset.json["extensionsUsed"] = json!(["KHR_lights_punctual"]);
     asset.json["extensions"] = json!({ "KHR_lights_punctual": { "lights": [
@@ -207,20 +209,27 @@ fn point_lights_are_placed_and_others_left_out() {
         { "type": "point", "color": [1.0, 0.5, 0.0], "intensity": 40.0, "range": 8.0 },
         { "type": "spot", "spot": {} },
         { "type": "point" },
+        { "type": "spot", "spot": { "innerConeAngle": 0.25, "outerConeAngle": 0.5 } },
     ] } });
     let lit = |light: u32| json!({ "KHR_lights_punctual": { "light": light } });
     asset.json["nodes"] = json!([
-        { "mesh": 0, "translation": [1, 0, 0], "children": [1, 2, 3, 4] },
+        { "mesh": 0, "translation": [1, 0, 0], "children": [1, 2, 3, 4, 5] },
         { "extensions": lit(0) },
         { "extensions": lit(1), "translation": [0, 2, 0], "scale": [9, 9, 9] },
         { "extensions": lit(2) },
         { "extensions": lit(3) },
+        { "extensions": lit(4), "rotation": [0.0, FRAC_1_SQRT_2, 0.0, FRAC_1_SQRT_2], "scale": [1, 1, 3] },
     ]);
     let lights = asset.load().unwrap().lights;
+    let (lights, spots): (Vec<_>, Vec<_>) = lights.into_iter().partition(|light| light.spot.is_none());
     assert_eq!(lights.len(), 2);
     assert_eq!(lights[0].position, Vec3::new(1.0, 2.0, 0.0));
     assert_eq!((lights[0].color, lights[0].intensity, lights[0].range), ([1.0, 0.5, 0.0], 40.0, Some(8.0)));
     assert_eq!((lights[1].color, lights[1].intensity, lights[1].range), ([1.0; 3], 1.0, None));
+    let cones: Vec<_> = spots.iter().filter_map(|light| light.spot).collect();
+    assert_eq!(cones[0], Spot { direction: [0.0, 0.0, -1.0], inner: 0.0, outer: FRAC_PI_4 });
+    assert_eq!((cones[1].inner, cones[1].outer, cones.len()), (0.25, 0.5, 2));
+    assert!(Vec3::from(cones[1].direction).abs_diff_eq(-Vec3::X, 1e-6), "{cones:?}");
 }
 
 #[test]
