@@ -7,6 +7,7 @@
 //!             └─depth_steps─> how much depth jumps
 //! boxes of instances ─cull─> what is drawn
 //! grid ─build_boxes─> boxes around cells
+//! meshes of lights ─shell─> slices of each light, tile by tile ─fill─> light lists
 //! ```
 //!
 //! Assignment by other ways than brute force has twins of each of its steps, which take what the step before left on the
@@ -32,12 +33,14 @@ mod compact;
 mod cull;
 mod cull_lights;
 mod depth_steps;
+mod fill;
 mod hierarchy;
 mod light_rectangles;
 mod lists;
 mod mark;
 mod scan;
 mod scatter;
+mod shell;
 mod sort_tiles;
 
 pub use assign::{LightLists, assign, assign_measured};
@@ -49,12 +52,14 @@ pub use compact::{Compacted, NOT_VISIBLE, compact};
 pub use cull::{Seen, cull};
 pub use cull_lights::{Blocks, Candidate, CellRange, CulledLights, cull_lights, mark_blocks};
 pub use depth_steps::{depth_steps, log2_parts};
+pub use fill::{END_OF_LIST, FilledLists, LinkedLists, Shells, fill, fill_linked};
 pub use hierarchy::{Descent, Key, Node, Tree, build_nodes, descend, keys, sorted};
 pub use light_rectangles::{light_rectangles, rectangles};
 pub use lists::{FoundLists, cap_list, read_masks, sort_lists};
 pub use mark::{DepthImage, Marks, mark};
 pub use scan::scan;
 pub use scatter::{ClusterGroup, scatter, scatter_groups};
+pub use shell::{ShellGrid, SliceRange, ViewMesh, shell, shell_of_tile};
 pub use sort_tiles::{TileClusters, sort_tiles};
 
 use crate::geometry::Grid;

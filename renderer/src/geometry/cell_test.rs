@@ -5,7 +5,10 @@
 
 use super::piece::FrustumPiece;
 use super::projected_sphere::rectangle_margin;
-use super::{ClusterSpace, Frustum, Grid, LightVolume, MeasuredBounds, Separators, SphereTest, VolumeKind};
+use super::{
+    ClusterSpace, ConeTest, Frustum, Grid, Hexahedron, LightVolume, MeasuredBounds, OrientedBox, Separators,
+    SphereTest, SphericalSector, VolumeTest,
+};
 use glam::DVec3;
 
 /// A plane by its unit normal, which points inwards, and its offset.
@@ -62,12 +65,11 @@ impl Grid {
 /// A cluster made ready to be tested against many light volumes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CellTest {
-    test: SphereTest,
-    planes: [Plane; 6],
+    test: VolumeTest,
+    cell: Hexahedron,
     /// Where a part of a cell is tested, those of the cell: of two planes through the apex the outer one is not always nearer to
     /// what lies behind both.
     outer: Option<[Plane; 6]>,
-    corners: [DVec3; 8],
     /// Directions of the edges; as many as differ.
     edges: [DVec3; 6],
     /// In perspective grids.
@@ -78,44 +80,71 @@ pub struct CellTest {
 
 impl CellTest {
     /// Prepares the cluster `cell` of `grid`.
-    pub fn new(test: SphereTest, grid: &Grid, cell: [u32; 3]) -> Self {
-        let corners = grid.cell_corners(cell);
+    pub fn new(test: impl Into<VolumeTest>, grid: &Grid, cell: [u32; 3]) -> Self {
+        let cell = Hexahedron::of_cell(grid, cell);
         let piece = match grid.space {
-            ClusterSpace::Perspective { .. } => Some(FrustumPiece::new(&corners)),
+            ClusterSpace::Perspective { .. } => Some(FrustumPiece::new(&cell.corners)),
             ClusterSpace::Orthographic { .. } => None,
         };
-        let (planes, edges) = (grid.cell_planes(cell), edges(piece.as_ref()));
-        Self { test, planes, outer: None, corners, edges, piece, near: near(grid) }
+        let edges = edges(piece.as_ref());
+        Self { test: test.into(), cell, outer: None, edges, piece, near: near(grid) }
     }
 
     /// Prepares what was measured in the cluster `cell` of `grid`; it holds something.
-    pub fn measured(test: SphereTest, grid: &Grid, cell: [u32; 3], bounds: &MeasuredBounds) -> Self {
-        let corners = bounds.corners(grid);
+    pub fn measured(
+        test: impl Into<VolumeTest>,
+        grid: &Grid,
+        cell: [u32; 3],
+        bounds: &MeasuredBounds,
+    ) -> Self {
+        let part = Hexahedron { corners: bounds.corners(grid), planes: bounds.planes(grid) };
         let piece = match grid.space {
-            ClusterSpace::Perspective { .. } => Some(FrustumPiece::new(&corners)),
+            ClusterSpace::Perspective { .. } => Some(FrustumPiece::new(&part.corners)),
             ClusterSpace::Orthographic { .. } => None,
         };
-        let (planes, edges) = (bounds.planes(grid), edges(piece.as_ref()));
+        let edges = edges(piece.as_ref());
         let outer = piece.map(|_| grid.cell_planes(cell));
-        Self { test, planes, outer, corners, edges, piece, near: near(grid) }
+        Self { test: test.into(), cell: part, outer, edges, piece, near: near(grid) }
     }
 
     /// Signed margin in metres: at least 0 where the volume meets the cluster, by this test. Its size is how far the
     /// volume or the corners would have to move for another answer, at least.
     pub fn margin(&self, volume: &LightVolume) -> f64 {
-        match volume.kind {
-            VolumeKind::Sphere => self.sphere_margin(volume.centre, volume.radius),
+        let of_sphere = self.sphere_margin(volume.centre, volume.radius);
+        volume.sector.iter().map(|sector| self.sector_margin(sector)).fold(of_sphere, f64::min)
+    }
+
+    fn sector_margin(&self, sector: &SphericalSector) -> f64 {
+        match self.test.cone {
+            ConeTest::Unasked => f64::INFINITY,
+            ConeTest::Separating => self.asked_of_cones().separation_margin(sector),
+            ConeTest::Exact => self.asked_of_cones().sector_margin(sector),
         }
     }
 
+    /// The cell, or the box around it where that is what spheres are tested against.
+    fn asked_of_cones(&self) -> Hexahedron {
+        if self.test.sphere != SphereTest::Box {
+            return self.cell;
+        }
+        let [low, high] = self.bounds();
+        Hexahedron::of_box(&OrientedBox::along_axes(0.5 * (low + high), 0.5 * (high - low)))
+    }
+
+    /// Lowest and highest corner of the box around the cell.
+    fn bounds(&self) -> [DVec3; 2] {
+        let corners = self.cell.corners.into_iter();
+        let low = corners.clone().fold(DVec3::INFINITY, DVec3::min);
+        [low, corners.fold(DVec3::NEG_INFINITY, DVec3::max)]
+    }
+
     fn sphere_margin(&self, center: DVec3, radius: f64) -> f64 {
-        match (self.test, &self.piece) {
+        match (self.test.sphere, &self.piece) {
             (SphereTest::Separating(separators), _) => self.unseparated(separators, center, radius),
             (SphereTest::Projected, _) => self.projection_margin(center, radius),
             (SphereTest::Exact, Some(piece)) => radius - piece.distance(center),
             (SphereTest::Exact, None) | (SphereTest::Box, _) => {
-                let low = self.corners.into_iter().reduce(DVec3::min).unwrap_or(center);
-                let high = self.corners.into_iter().reduce(DVec3::max).unwrap_or(center);
+                let [low, high] = self.bounds();
                 radius - center.distance(center.clamp(low, high))
             }
         }
@@ -123,8 +152,8 @@ impl CellTest {
 
     /// Least margin of the sides to what is seen of the sphere, and of the ends to its depths.
     fn projection_margin(&self, center: DVec3, radius: f64) -> f64 {
-        let ends = self.planes[4..].iter().map(|plane| plane.distance(center) + radius);
-        ends.fold(rectangle_margin(&self.planes, self.near, center, radius), f64::min)
+        let ends = self.cell.planes[4..].iter().map(|plane| plane.distance(center) + radius);
+        ends.fold(rectangle_margin(&self.cell.planes, self.near, center, radius), f64::min)
     }
 
     /// Least margin of all that might separate.
@@ -135,7 +164,7 @@ impl CellTest {
         }
         if separators.contain(Separators::NORMALS) {
             least = least.min(self.within_planes(center, radius));
-            let normals = self.planes.iter().map(|plane| radius - self.gap(plane.normal, center));
+            let normals = self.cell.planes.iter().map(|plane| radius - self.gap(plane.normal, center));
             least = normals.fold(least, f64::min);
         }
         if separators.contain(Separators::EDGES) {
@@ -143,7 +172,7 @@ impl CellTest {
             least = edges.fold(least, f64::min);
         }
         if separators.contain(Separators::VERTICES) {
-            let vertices = self.corners.iter().map(|&corner| self.vertex_margin(corner, center, radius));
+            let vertices = self.cell.corners.iter().map(|&corner| self.vertex_margin(corner, center, radius));
             least = vertices.fold(least, f64::min);
         }
         if separators.contain(Separators::NEAREST_VERTEX) {
@@ -154,13 +183,13 @@ impl CellTest {
 
     /// Least distance of the centre from the planes, moved out by the radius.
     fn within_planes(&self, center: DVec3, radius: f64) -> f64 {
-        let asked = self.planes.iter().chain(self.outer.iter().flatten());
+        let asked = self.cell.planes.iter().chain(self.outer.iter().flatten());
         asked.map(|plane| plane.distance(center) + radius).fold(f64::INFINITY, f64::min)
     }
 
     /// How far the corners' projections to a unit axis lie apart from the centre's, metres; below 0 where they enclose it.
     fn gap(&self, axis: DVec3, center: DVec3) -> f64 {
-        let projected = self.corners.map(|corner| axis.dot(corner - center));
+        let projected = self.cell.corners.map(|corner| axis.dot(corner - center));
         let low = projected.into_iter().fold(f64::INFINITY, f64::min);
         let high = projected.into_iter().fold(f64::NEG_INFINITY, f64::max);
         low.max(-high)
@@ -169,13 +198,14 @@ impl CellTest {
     /// Margin of the axis from the centre to a corner. The nearer the corner, the more does the axis turn when it moves.
     fn vertex_margin(&self, corner: DVec3, center: DVec3, radius: f64) -> f64 {
         let Some(axis) = (corner - center).try_normalize() else { return radius };
-        let farthest = self.corners.iter().map(|other| other.distance(center)).fold(0.0, f64::max);
+        let farthest = self.cell.corners.iter().map(|other| other.distance(center)).fold(0.0, f64::max);
         (radius - self.gap(axis, center)) / (1.0 + farthest / corner.distance(center))
     }
 
     /// Margin of the axis to the nearest corner; corners about as near take its place when they move.
     fn nearest_vertex_margin(&self, center: DVec3, radius: f64) -> f64 {
         let mut corners: Vec<(f64, f64)> = self
+            .cell
             .corners
             .iter()
             .map(|&corner| (corner.distance(center), self.vertex_margin(corner, center, radius)))
@@ -230,6 +260,27 @@ mod tests {
         assert!(axis_box(&orthographic(), cell, beyond_corner, 1.0) < 0.0);
         assert!((axis_box(&orthographic(), cell, DVec3::new(1.0, 5.0, 1.0), 3.5) - 0.5).abs() < 1e-12);
         assert_eq!(axis_box(&orthographic(), cell, DVec3::ONE, 1.5), 1.5);
+    }
+
+    #[test]
+    fn cones_are_asked_where_the_test_says_so() {
+        // Beside the first cell, shining along its face, or into it.
+        let apex = DVec3::new(2.5, 1.0, -1.0);
+        let spot = |x: f64| {
+            let axis = DVec3::new(x, 0.0, 1.0).normalize();
+            LightVolume::sector(SphericalSector { apex, axis, range: 3.0, half_angle: 0.1 })
+        };
+        let meets = |name: &str, x: f64| {
+            let test: VolumeTest = name.parse().unwrap();
+            CellTest::new(test, &orthographic(), [0; 3]).margin(&spot(x)) >= 0.0
+        };
+        for sphere in ["exact", "box", "hs", "sat-n"] {
+            assert!(meets(sphere, 0.0) && meets(sphere, -1.0), "{sphere}");
+            for cone in ["+cone", "+cone-sat"] {
+                assert!(!meets(&format!("{sphere}{cone}"), 0.0), "{sphere}{cone}");
+                assert!(meets(&format!("{sphere}{cone}"), -1.0), "{sphere}{cone}");
+            }
+        }
     }
 
     #[test]

@@ -103,11 +103,8 @@ impl Bench {
 
 /// A volume as the device has it.
 fn volume(device: &device::LightVolume) -> LightVolume {
-    LightVolume {
-        kind: VolumeKind::ALL[device.kind as usize],
-        centre: glam::Vec3::from(device.centre).as_dvec3(),
-        radius: device.radius.into(),
-    }
+    assert_eq!(VolumeKind::ALL[device.kind as usize], VolumeKind::Sphere);
+    LightVolume::sphere(glam::Vec3::from(device.centre).as_dvec3(), device.radius.into())
 }
 
 fn unpack(words: [u32; 3]) -> CellRange {
