@@ -167,7 +167,7 @@ const STRUCTS: [StructInfo; 22] = [
 ];
 
 /// Names of what shader variants choose among; the value is the position.
-const VARIANT_NAMES: [&[&str]; 11] = [
+const VARIANT_NAMES: [&[&str]; 12] = [
     &["SPACE_PERSPECTIVE", "SPACE_ORTHOGRAPHIC", "SPACE_MODEL"],
     &["SCAN_VISIBILITY", "SCAN_LIST_LENGTHS", "SCAN_DIGITS", "SCAN_GROUPS", "SCAN_TILES"],
     &["ASSIGN_BRUTE", "ASSIGN_HIERARCHY", "ASSIGN_SCATTER", "ASSIGN_RECTANGLES"],
@@ -184,6 +184,7 @@ const VARIANT_NAMES: [&[&str]; 11] = [
     &["COMPACTION_RANKS", "COMPACTION_ATOMIC", "COMPACTION_SORT"],
     &["CULLING_CPU", "CULLING_GPU"],
     &["BOUNDS_CELL", "BOUNDS_DEPTH", "BOUNDS_BOX"],
+    &["CONES_UNASKED", "CONES_SEPARATING", "CONES_EXACT"],
     &["VISIT_MARK", "VISIT_COUNT", "VISIT_BOUNDS"],
     &["MATERIAL_TEXTURED", "MATERIAL_WHITE"],
 ];

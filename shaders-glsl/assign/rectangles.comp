@@ -23,7 +23,7 @@ void take_light(uint visible, uint light)
     if (visible == NO_CLUSTER)
         return;
     ++tests;
-#if BOUNDS != BOUNDS_CELL
+#if BOUNDS != BOUNDS_CELL || CONES != CONES_UNASKED
     if (!holds_samples(visible) || !meets(bounds_of_visible(visible), volume_of_light(light)))
         return;
 #endif

@@ -4,6 +4,9 @@
 
 #include "lib/measured_bounds.glsl"
 
+// Whether some test asks the tangents of a cell beside its planes.
+#define HAS_TANGENTS (TEST_SAT_E || TEST_SAT_N || TEST_SAT_P || TEST_SAT_V || TEST_NEAREST || TEST_MM || CONES != CONES_UNASKED)
+
 struct CellBounds {
     // Unit normals in the xz (left, right) and yz (bottom, top) plane, pointing inwards.
     vec2 left, right, bottom, top;
@@ -12,7 +15,7 @@ struct CellBounds {
     // Those of the cell in which the samples lie.
     vec2 outer_left, outer_right, outer_bottom, outer_top;
 #endif
-#if TEST_SAT_E || TEST_SAT_N || TEST_SAT_P || TEST_SAT_V || TEST_NEAREST || TEST_MM
+#if HAS_TANGENTS
     // Tangents of left and bottom, right and top.
     vec2 low, high;
 #endif
@@ -34,7 +37,7 @@ CellBounds frustum_piece(vec2 low, vec2 high, vec2 ends)
     bounds.top = -normalize(vec2(1.0, high.y));
     bounds.z_near = ends.x;
     bounds.z_far = ends.y;
-#if TEST_SAT_E || TEST_SAT_N || TEST_SAT_P || TEST_SAT_V || TEST_NEAREST || TEST_MM
+#if HAS_TANGENTS
     bounds.low = low;
     bounds.high = high;
 #endif

@@ -8,6 +8,9 @@
 //   TEST_NEAREST  the nearest point of the cell lies in the sphere: exact
 //   BOXED         of the box around the cell, instead of it (Ortiz): conservative
 //
+// Of a spot light, which is tested as the sphere around what it reaches, CONES says what is asked besides: nothing, some axes
+// that may separate its cone from the cell, or whether they have a point in common (lib/cone.glsl).
+//
 // The cheap parts come first. Every step is `precise`: all ways of assignment get the same answer, to the bit. Any axis
 // that separates proves that the two do not meet, so rounding of an axis costs nothing but a false positive; rounding
 // of what is projected to it is covered by the slack of the radii, as that of planes is.
@@ -37,6 +40,9 @@ const float RANGE_ROUNDING = 4e-6;
 #endif
 #if TEST_SAT_N || TEST_SAT_V
 #include "lib/separating_vertices.glsl"
+#endif
+#if CONES != CONES_UNASKED
+#include "lib/spot_volume.glsl"
 #endif
 
 // What of a visible cluster is tested against lights, where it holds samples.
@@ -82,23 +88,28 @@ bool sphere_meets(CellBounds cell, vec4 sphere)
 #endif
 }
 
-// Whether a sphere that meets what is measured of a cell is left out all the same, by the cell's own planes. Few spheres meet,
-// so that this stands apart.
-bool is_left_out(CellBounds cell, vec4 sphere)
+// Whether some volume whose sphere meets a cell is left out all the same.
+#define LEAVES_OUT (BOUNDS == BOUNDS_BOX && SPACE == SPACE_PERSPECTIVE && !BOXED || CONES != CONES_UNASKED)
+
+// Whether a volume whose sphere meets a cell is left out all the same: by the cell's own planes, where a part of it is tested, or by
+// its cone. Few spheres meet, so that this stands apart.
+bool is_left_out(CellBounds cell, LightVolume volume)
 {
 #if TEST_HS || TEST_SAT_P
-    return beyond_cell(cell, sphere);
+    if (beyond_cell(cell, bounding_sphere(volume)))
+        return true;
+#endif
+#if CONES != CONES_UNASKED
+    return cone_misses(cell, volume);
 #else
     return false;
 #endif
 }
 
-// Whether a light's volume meets a cell. Every kind (VOLUME_*) lies in its bounding sphere, and a sphere is all of it, so
-// that the kind is not asked; what else some other kind asks belongs here and nowhere else.
+// Whether a light's volume meets a cell. Every kind (VOLUME_*) lies in its bounding sphere.
 bool meets(CellBounds cell, LightVolume volume)
 {
-    vec4 sphere = bounding_sphere(volume);
-    return sphere_meets(cell, sphere) && !is_left_out(cell, sphere);
+    return sphere_meets(cell, bounding_sphere(volume)) && !is_left_out(cell, volume);
 }
 
 // Whether a light may meet some cell of a range that `range` bounds.

@@ -9,6 +9,10 @@
 #extension GL_EXT_control_flow_attributes : require
 
 shared vec4 packet_spheres[ASSIGN_WORKGROUP];
+#if CONES != CONES_UNASKED
+// (kind, light) of each, which tell the cones.
+shared uvec2 packet_kinds[ASSIGN_WORKGROUP];
+#endif
 #if TEST_MM
 // The rectangles in which they are seen, once for all clusters.
 shared vec4 packet_rectangles[ASSIGN_WORKGROUP];
@@ -18,10 +22,26 @@ shared vec4 packet_rectangles[ASSIGN_WORKGROUP];
 void fill_packet(LightVolume volume)
 {
     packet_spheres[gl_LocalInvocationID.x] = bounding_sphere(volume);
+#if CONES != CONES_UNASKED
+    packet_kinds[gl_LocalInvocationID.x] = uvec2(volume.kind, volume.light);
+#endif
 #if TEST_MM
     packet_rectangles[gl_LocalInvocationID.x] = seen_rectangle(bounding_sphere(volume));
 #endif
     barrier();
+}
+
+// A volume of the packet, as far as tests ask it.
+LightVolume packet_volume(uint i)
+{
+    LightVolume volume;
+    volume.centre = packet_spheres[i].xyz;
+    volume.radius = packet_spheres[i].w;
+#if CONES != CONES_UNASKED
+    volume.kind = packet_kinds[i].x;
+    volume.light = packet_kinds[i].y;
+#endif
+    return volume;
 }
 
 bool packet_light_meets(CellBounds cell, uint i)
@@ -56,10 +76,10 @@ uvec2 lights_met(uint visible, uint count)
 {
     CellBounds cell = cell_of_thread(visible);
     uvec2 met = lights_passing(cell, count);
-#if BOUNDS == BOUNDS_BOX && SPACE == SPACE_PERSPECTIVE && !BOXED
+#if LEAVES_OUT
     for (uint part = 0u; part < 2u; ++part)
         for (uint bits = met[part]; bits != 0u; bits &= bits - 1u)
-            if (is_left_out(cell, packet_spheres[32u * part + uint(findLSB(bits))]))
+            if (is_left_out(cell, packet_volume(32u * part + uint(findLSB(bits)))))
                 met[part] &= ~(bits & (0u - bits));
 #endif
     return met;

@@ -22,6 +22,7 @@ LightVolume volume_of_light(uint light)
     volume.centre = centre;
     volume.radius = radius;
     volume.kind = place.kind;
+    volume.light = light;
     return volume;
 }
 

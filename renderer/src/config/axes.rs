@@ -3,7 +3,7 @@
 
 use super::{Choice, Config, Lighting, LightsFrom, Own, SceneEntry};
 use crate::assign::{Bounds, Clusters};
-use crate::geometry::{SliceLaw, SphereTest};
+use crate::geometry::{SliceLaw, VolumeTest};
 use crate::methods::Method;
 use std::fmt;
 use std::path::Path;
@@ -163,7 +163,7 @@ pub static AXES: [Axis; 15] = [
         column: "test",
         role: Role::Way,
         values: Values::Names,
-        applies: SphereTest::applies,
+        applies: VolumeTest::applies,
         count: |config| config.test.len(),
         split: |config| {
             each(&choices(config, &config.test), |test| Config { test: vec![test], ..config.clone() })

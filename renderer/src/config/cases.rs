@@ -3,7 +3,7 @@
 
 use super::{Assign, Config, LightsFrom};
 use crate::assign::{Bounds, Clusters, Compaction, Marking, check_one_pass};
-use crate::geometry::{CellShape, SliceLaw, SphereTest};
+use crate::geometry::{CellShape, SliceLaw, SphereTest, VolumeTest};
 use crate::methods::Method;
 use crate::nearest;
 use crate::shading::ShadingPipeline;
@@ -21,7 +21,7 @@ pub enum Choice<T> {
 }
 
 /// What decides whether a light gets onto a cluster's list.
-pub type Test = Choice<SphereTest>;
+pub type Test = Choice<VolumeTest>;
 
 /// What every method has of its own.
 pub trait Own: Copy {
@@ -34,9 +34,9 @@ pub trait Own: Copy {
     }
 }
 
-impl Own for SphereTest {
+impl Own for VolumeTest {
     fn own(method: &Method) -> Self {
-        method.own_test()
+        method.own_test().into()
     }
 }
 
@@ -85,6 +85,12 @@ impl<T: Own> Choice<T> {
     }
 }
 
+impl From<SphereTest> for Test {
+    fn from(test: SphereTest) -> Self {
+        Self::Named(test.into())
+    }
+}
+
 impl<T> From<T> for Choice<T> {
     fn from(named: T) -> Self {
         Self::Named(named)
@@ -117,22 +123,20 @@ impl Config {
         self.check_lists()?;
         self.check_samples()?;
         self.check_assign()?;
-        match (self.methods.first(), self.test.first()) {
-            (Some(method), Some(Test::Named(test))) if has_models(method) && *test != SphereTest::Exact => {
-                Err(format!(
-                    "test: {method} tests lights against the boxes of models, by `exact` alone: leave `{test}` out, or \
-                     exclude the run"
-                ))
-            }
-            (Some(method), Some(Test::Named(SphereTest::Box))) if !has_boxes(method) => Err(format!(
+        let (Some(method), Some(Test::Named(test))) = (self.methods.first(), self.test.first()) else {
+            return Ok(());
+        };
+        match test.sphere {
+            sphere if has_models(method) && sphere != SphereTest::Exact => Err(format!(
+                "test: {method} tests lights against the boxes of models, by `exact` alone: leave `{test}` out, or exclude the run"
+            )),
+            SphereTest::Box if !has_boxes(method) => Err(format!(
                 "test: the clusters of {method} are no boxes: test them with `exact`, or exclude the run"
             )),
-            (Some(method), Some(Test::Named(SphereTest::Projected))) if !has_rectangles(method) => {
-                Err(format!(
-                    "test: the clusters of {method} are no pieces of a frustum, whose rectangles `mm` asks: use `exact`, or exclude \
-                 the run"
-                ))
-            }
+            SphereTest::Projected if !has_rectangles(method) => Err(format!(
+                "test: the clusters of {method} are no pieces of a frustum, whose rectangles `mm` asks: use `exact`, or exclude the \
+                 run"
+            )),
             _ => Ok(()),
         }
     }
@@ -165,7 +169,7 @@ impl Config {
             return Ok(());
         };
         let test = self.test[0].of(method);
-        if assigner.serves(test) {
+        if assigner.serves(test.sphere) {
             return Ok(());
         }
         Err(format!(

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::assign::{Bounds, Clusters, Compaction, ListStore, Marking};
 use crate::culling::Culling;
-use crate::geometry::{DisplacedVolume, SliceLaw, SphereTest};
+use crate::geometry::{DisplacedVolume, SliceLaw, VolumeTest};
 use crate::lights::{
     Attenuation, GeneratorKind, LatticeBox, LightBox, LightMotion, LightSet, Lighting, SpotShare,
 };
@@ -302,9 +302,11 @@ settings! {
     /// What decides whether a light meets a cluster: `hs` (half spaces), `sat-` with letters (no separating axis among
     /// e: edges, n: to the nearest vertex, p: normals, v: to all vertices), `hs+sat-n` and the like, `exact`, `mm` (the rectangle in
     /// which the light is seen; perspective clusters), `box` (orthographic clusters and ortiz), or `auto`: what the method's name
-    /// says, hs in perspective grids for most, box where it serves, exact for models, which take no other. Of several, with commas between, each is a run of every method.
+    /// says, hs in perspective grids for most, box where it serves, exact for models, which take no other. That is asked of the sphere
+    /// around what a spot light reaches; with `+cone-sat` behind it some axes are asked besides that may separate its cone, with
+    /// `+cone` its cone exactly. Of several, with commas between, each is a run of every method.
     test: Vec<Test> = vec![Test::Auto], Run {
-        arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::choice::<SphereTest>)
+        arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::choice::<VolumeTest>)
         serde(default, deserialize_with = "de::ways")
         schemars(schema_with = "schema::test")
         write(serialize_with = "ser::one_or_several")

@@ -1,7 +1,7 @@
 //! Light lists by brute force: every visible cluster against every light.
 
 use super::scan;
-use crate::geometry::{CellTest, Grid, LightVolume, MeasuredBounds, SphereTest};
+use crate::geometry::{CellTest, Grid, LightVolume, MeasuredBounds, SphericalSector, VolumeTest};
 use crate::lights::Light;
 
 /// The light lists of all visible clusters, one behind the other.
@@ -25,7 +25,14 @@ impl LightLists {
 /// Assigns `lights` (world space, influence radius R1) to the `visible` clusters of `grid` (linear indices).
 ///
 /// `epsilon`, in metres, is how small a margin makes a pair borderline.
-pub fn assign(grid: &Grid, visible: &[u32], lights: &[Light], test: SphereTest, epsilon: f64) -> LightLists {
+pub fn assign(
+    grid: &Grid,
+    visible: &[u32],
+    lights: &[Light],
+    test: impl Into<VolumeTest>,
+    epsilon: f64,
+) -> LightLists {
+    let test = test.into();
     let cells = visible.iter().map(|&cluster| Some(CellTest::new(test, grid, grid.cluster_at(cluster))));
     assign_cells(cells, grid, lights, epsilon)
 }
@@ -35,9 +42,10 @@ pub fn assign_measured(
     grid: &Grid,
     (visible, bounds): (&[u32], &[MeasuredBounds]),
     lights: &[Light],
-    test: SphereTest,
+    test: impl Into<VolumeTest>,
     epsilon: f64,
 ) -> LightLists {
+    let test = test.into();
     let cell = |(&cluster, bounds): (&u32, &MeasuredBounds)| {
         (!bounds.is_empty()).then(|| CellTest::measured(test, grid, grid.cluster_at(cluster), bounds))
     };
@@ -87,15 +95,22 @@ impl LightLists {
 
 /// What a light reaches, in the space of `grid`; without the slack that covers the device's rounding.
 fn volume_of_light(grid: &Grid, light: &Light) -> LightVolume {
-    let (world, radius) = light.bounding_sphere();
-    LightVolume::sphere(grid.pose.inverse_transform_point(world), radius)
+    let to_grid = |world| grid.pose.inverse_transform_point(world);
+    match light.sector() {
+        None => LightVolume::sphere(to_grid(light.place()), light.r1.into()),
+        Some(sector) => {
+            let apex = to_grid(sector.apex);
+            let axis = to_grid(sector.apex + sector.axis) - apex;
+            LightVolume::sector(SphericalSector { apex, axis: axis.normalize(), ..sector })
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::ClusterSpace;
     use crate::geometry::views::Pose;
+    use crate::geometry::{ClusterSpace, SphereTest};
     use glam::DVec3;
 
     fn light(x: f32, r1: f32) -> Light {

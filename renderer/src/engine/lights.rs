@@ -129,13 +129,13 @@ impl DeviceLights {
 /// A light as shaders read it in a frame with this origin.
 fn light_data(light: &Light, origin: DVec3) -> LightData {
     LightData {
-        position: (DVec3::from_array(light.position.map(f64::from)) - origin).as_vec3().to_array(),
+        position: (light.place() - origin).as_vec3().to_array(),
         r1: light.r1,
         tint: light.tint,
         intensity: light.intensity,
         cutoff: light.cutoff,
         r0: light.r0,
-        kind: VolumeKind::Sphere as u32,
+        kind: if light.spot.is_some() { VolumeKind::Sector } else { VolumeKind::Sphere } as u32,
         ..Default::default()
     }
 }
@@ -152,10 +152,11 @@ fn spot_data(light: &Light) -> SpotData {
             ..Default::default()
         };
     };
-    let (ConeFalloff { scale, offset }, (along, radius)) = (spot.falloff(), spot.bounds(light.r1.into()));
+    let ConeFalloff { scale, offset } = spot.falloff();
+    let (middle, radius) = spot.sector(DVec3::ZERO, light.r1.into()).bounding_sphere();
     SpotData {
         axis: spot.direction,
-        along: along as f32,
+        along: middle.length() as f32,
         radius: radius as f32,
         scale: scale as f32,
         offset: offset as f32,

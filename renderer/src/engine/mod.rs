@@ -36,6 +36,7 @@ use crate::buffers::{BufferName, ClusteringSizes, Copies};
 use crate::clustering::{Clustering, FRAME_SLOTS, SharedBuffer};
 use crate::config::{Config, Scopes};
 use crate::culling::Culling;
+use crate::geometry::ConeTest;
 use crate::gpu_interface::ClusteringState;
 use crate::layouts::Pipeline;
 use crate::lights::FrameLights;
@@ -66,6 +67,7 @@ pub struct Engine {
     lists: ListStore,
     grid_box: GridBox,
     assigner: Assigner,
+    cones: ConeTest,
     shading: Shading,
     pipeline: ShadingPipeline,
     resolution: [u32; 2],
@@ -114,6 +116,7 @@ impl Engine {
             grid_box: run.grid_box,
             marking: run.marking,
             assigner: chosen.assigner,
+            cones: chosen.cones(&mode),
             shading: run.shading[0],
             pipeline: run.pipeline[0],
             resolution: run.resolution,
@@ -286,6 +289,7 @@ impl Engine {
             lists: self.lists,
             marking: self.marking,
             assigner: self.assigner,
+            cones: self.cones,
             shading: self.shading,
             pipeline: self.pipeline,
             shaded: self.shaded,

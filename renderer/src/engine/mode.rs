@@ -7,7 +7,7 @@ use crate::assign::{
 };
 use crate::buffers::ClusteringSizes;
 use crate::config::Config;
-use crate::geometry::{SliceLaw, SphereTest};
+use crate::geometry::{ConeTest, SliceLaw, VolumeTest};
 use crate::lights::LightTally;
 use crate::measure::Capacities;
 use crate::methods::model::MOST_ACCELERATED;
@@ -89,7 +89,7 @@ pub(super) struct Chosen {
     /// Side of the tiles that are sorted, pixels; 0 where none are.
     sorted_tile: u32,
     slices: SliceLaw,
-    test: SphereTest,
+    test: VolumeTest,
 }
 
 impl Chosen {
@@ -152,6 +152,11 @@ impl Chosen {
         )))
     }
 
+    /// What is asked of cones; nothing where no light has one.
+    pub fn cones(&self, mode: &Mode) -> ConeTest {
+        if mode.lights.spots { self.test.cone } else { ConeTest::Unasked }
+    }
+
     /// What the shaders of the engine are specialised for.
     pub fn variant(&self, run: &Config, mode: &Mode) -> Variant {
         let kind = self.method.kind();
@@ -171,7 +176,7 @@ impl Chosen {
             multiview: run.multiview,
             marking: run.marking,
             assigner: self.assigner,
-            test: self.test,
+            test: VolumeTest { cone: self.cones(mode), ..self.test },
             lights_at_once: lights_at_once(self.method.has_lists(), mode.lights.count),
             shading: run.shading[0],
             pipeline: run.pipeline[0],
@@ -196,7 +201,7 @@ impl Chosen {
             tiles,
             listed: self.clusters,
             bounds: self.bounds,
-            boxed: kind.cells().is_some_and(|cells| cells.keeps_boxes(self.test)),
+            boxed: kind.cells().is_some_and(|cells| cells.keeps_boxes(self.test.sphere)),
             compaction: self.compaction,
             lists: self.lists,
             slice_planes,

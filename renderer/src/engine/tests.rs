@@ -99,6 +99,7 @@ impl Bench {
 mod assign_equality;
 mod bounds;
 mod boxes;
+mod cones;
 mod cull;
 mod list_stores;
 mod list_twins;

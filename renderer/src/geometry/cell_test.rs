@@ -6,7 +6,7 @@
 use super::piece::FrustumPiece;
 use super::projected_sphere::rectangle_margin;
 use super::{
-    ClusterSpace, ConeTest, Frustum, Grid, Hexahedron, LightVolume, MeasuredBounds, OrientedBox, Separators,
+    ClusterSpace, Frustum, Grid, Hexahedron, LightVolume, MeasuredBounds, OrientedBox, Separators,
     SphereTest, SphericalSector, VolumeTest,
 };
 use glam::DVec3;
@@ -115,11 +115,7 @@ impl CellTest {
     }
 
     fn sector_margin(&self, sector: &SphericalSector) -> f64 {
-        match self.test.cone {
-            ConeTest::Unasked => f64::INFINITY,
-            ConeTest::Separating => self.asked_of_cones().separation_margin(sector),
-            ConeTest::Exact => self.asked_of_cones().sector_margin(sector),
-        }
+        self.test.cone.margin(&self.asked_of_cones(), sector)
     }
 
     /// The cell, or the box around it where that is what spheres are tested against.

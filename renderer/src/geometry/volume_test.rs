@@ -1,6 +1,6 @@
 //! The tests of a light's volume against a cluster, by name.
 
-use super::SphereTest;
+use super::{Hexahedron, SphereTest, SphericalSector};
 use std::fmt;
 use std::str::FromStr;
 
@@ -18,6 +18,15 @@ pub enum ConeTest {
 impl ConeTest {
     /// Every test; of two whose suffixes a name ends in, the one that is read comes first.
     const ALL: [Self; 3] = [Self::Separating, Self::Exact, Self::Unasked];
+
+    /// Signed margin in metres: at least 0 where what a spot light reaches meets a cell, by this test.
+    pub fn margin(self, cell: &Hexahedron, sector: &SphericalSector) -> f64 {
+        match self {
+            Self::Unasked => f64::INFINITY,
+            Self::Separating => cell.separation_margin(sector),
+            Self::Exact => cell.sector_margin(sector),
+        }
+    }
 
     /// What it adds to the name of the sphere's test.
     fn suffix(self) -> &'static str {

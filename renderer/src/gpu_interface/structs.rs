@@ -140,9 +140,7 @@ gpu_struct! {
 }
 
 gpu_struct! {
-    /// What a light reaches, in clustering space. What a kind needs besides the bounding sphere (the axis and the angles
-    /// of a cone) goes behind `kind`: three words of the second texel are free, and a texel that a shader does not use
-    /// is not fetched.
+    /// What a light reaches, in clustering space. What a kind needs besides the bounding sphere is with the light.
     pub struct LightVolume in texels {
         /// Centre of the bounding sphere, metres.
         pub centre: [f32; 3],
@@ -150,6 +148,8 @@ gpu_struct! {
         pub radius: f32,
         /// A [`VolumeKind`](crate::geometry::VolumeKind) as a number.
         pub kind: u32,
+        /// Index of the light in the frame.
+        pub light: u32,
     }
 }
 

@@ -27,6 +27,7 @@ pub use volume::{LatticeBox, LightSet, VolumeRecipe};
 
 use self::rain::Rain;
 use self::spelled::spelled;
+use crate::geometry::SphericalSector;
 use crate::scene::SceneLight;
 use crate::{Error, Result};
 use glam::DVec3;
@@ -62,21 +63,27 @@ impl Light {
         Self { spot, ..self }
     }
 
+    /// Place of the light in the world, metres.
+    pub fn place(&self) -> DVec3 {
+        DVec3::from_array(self.position.map(f64::from))
+    }
+
+    /// What a spot light reaches, world space; `None` of a light that shines all around.
+    pub fn sector(&self) -> Option<SphericalSector> {
+        self.spot.map(|spot| spot.sector(self.place(), self.r1.into()))
+    }
+
     /// The part of the light that goes through its cone towards a point (world space), 0 to 1 (KHR_lights_punctual).
     pub fn cone_part(&self, point: DVec3) -> f64 {
-        let towards = (point - DVec3::from_array(self.position.map(f64::from))).normalize_or_zero();
+        let towards = (point - self.place()).normalize_or_zero();
         self.spot.map_or(1.0, |spot| spot.falloff().at(spot.axis().dot(towards)))
     }
 
     /// The smallest sphere around all that the light reaches: middle (world space) and radius, metres.
     pub fn bounding_sphere(&self) -> (DVec3, f64) {
-        let (position, r1) = (DVec3::from_array(self.position.map(f64::from)), f64::from(self.r1));
-        match &self.spot {
-            None => (position, r1),
-            Some(spot) => {
-                let (along, radius) = spot.bounds(r1);
-                (position + along * spot.axis(), radius)
-            }
+        match self.sector() {
+            None => (self.place(), self.r1.into()),
+            Some(sector) => sector.bounding_sphere(),
         }
     }
 

@@ -25,6 +25,7 @@ use super::lights;
 use super::scan::group_packets;
 use crate::assign::{Assigner, ClusterBounds, ListStore};
 use crate::buffers::{BufferName as B, BufferSet, set};
+use crate::geometry::ConeTest;
 use crate::gpu_interface::{
     ASSIGN_WORKGROUP, DISPATCH_GROUPS, DISPATCH_LISTS, DISPATCH_MASKED, DISPATCH_MEET, DISPATCH_MEET_AGAIN,
     DISPATCH_UNMASKED,
@@ -156,7 +157,7 @@ fn meet(
     dispatch: (&Pipeline, u32),
     (reads, writes): (BufferSet, BufferSet),
 ) {
-    let cells = set(&[B::VisibleClusters, B::ClusterBounds]) | boxes(frame);
+    let cells = set(&[B::VisibleClusters, B::ClusterBounds]) | boxes(frame) | cones(frame);
     let met = match frame.assigner {
         Assigner::Brute => cells | set(&[B::LightVolumes]),
         Assigner::Hierarchy => cells | set(&[B::TreeVolumes, B::TreeLights, B::LightNodes]),
@@ -167,13 +168,19 @@ fn meet(
     indirect(r, frame, visible, dispatch, (reads, writes));
 }
 
-/// What is measured of clusters, and the lights that are tested against it, where that is.
+/// What is measured of clusters and the lights that are tested against it, or against cells with their cones, where either is.
 fn measured(frame: &Frame) -> BufferSet {
-    match frame.bounds {
-        ClusterBounds::Cell => BufferSet::EMPTY,
-        ClusterBounds::Depth | ClusterBounds::Box => {
-            lights::READ | set(&[B::VisibleClusters, B::ClusterBounds])
-        }
+    match (frame.bounds, frame.cones) {
+        (ClusterBounds::Cell, ConeTest::Unasked) => BufferSet::EMPTY,
+        _ => lights::READ | set(&[B::VisibleClusters, B::ClusterBounds]),
+    }
+}
+
+/// The lights whose cones are asked.
+fn cones(frame: &Frame) -> BufferSet {
+    match frame.cones {
+        ConeTest::Unasked => BufferSet::EMPTY,
+        ConeTest::Separating | ConeTest::Exact => lights::READ,
     }
 }
 

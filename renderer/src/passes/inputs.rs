@@ -7,7 +7,7 @@ use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::clustering::Clustering;
 use crate::draw_list::DrawList;
 use crate::drawables::{DrawableOrder, Drawables};
-use crate::geometry::Sharing;
+use crate::geometry::{ConeTest, Sharing};
 use crate::gpu_scene::GpuScene;
 use crate::layouts::BoundBuffers;
 use crate::pass::{DepthImage, ScopeName};
@@ -167,6 +167,8 @@ pub struct Frame<'a> {
     pub marking: Marking,
     /// How the light lists are built.
     pub assigner: Assigner,
+    /// What is asked of cones where lights are assigned; nothing where no light has one.
+    pub cones: ConeTest,
     /// How surfaces are drawn.
     pub shading: Shading,
     /// Who evaluates lights for opaque and masked ones.

@@ -4,7 +4,7 @@ use super::Output;
 use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction, ListStore, Marking};
 use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
-use crate::geometry::{CellShape, Separators, Sharing, SliceLaw, SphereTest};
+use crate::geometry::{CellShape, ConeTest, Separators, Sharing, SliceLaw, SphereTest, VolumeTest};
 use crate::lights::Attenuation;
 use crate::material::MaterialModel;
 use crate::methods::Groups;
@@ -44,8 +44,8 @@ pub struct Variant {
     pub marking: Marking,
     /// How the lists are built.
     pub assigner: Assigner,
-    /// What decides who is on them.
-    pub test: SphereTest,
+    /// What decides who is on them; no cones are asked where there are none.
+    pub test: VolumeTest,
     /// Lights that shading evaluates in one turn of its loop.
     pub lights_at_once: u32,
     /// How surfaces are drawn.
@@ -207,7 +207,7 @@ impl Variant {
 
     /// Whether the boxes around the pieces of a frustum are tested, as they are kept.
     pub(super) fn is_boxed(&self) -> bool {
-        self.cells().is_some_and(|cells| cells.keeps_boxes(self.test))
+        self.cells().is_some_and(|cells| cells.keeps_boxes(self.test.sphere))
     }
 
     /// Definitions for shaders that build lists.
@@ -221,16 +221,26 @@ impl Variant {
         self.defines().with("ASSIGN", assigner)
     }
 
-    /// Definitions for shaders that ask what a sphere meets.
+    /// What is asked of cones.
+    fn cone_define(&self) -> &'static str {
+        match self.test.cone {
+            ConeTest::Separating => "CONES_SEPARATING",
+            ConeTest::Exact => "CONES_EXACT",
+            ConeTest::Unasked => "CONES_UNASKED",
+        }
+    }
+
+    /// Definitions for shaders that ask what a volume meets.
     pub(super) fn test_defines(&self) -> Defines {
+        let test = self.test.sphere;
         let boxes = self.cells() == Some(CellShape::Box);
-        let nearest = matches!(self.test, SphereTest::Exact | SphereTest::Box);
+        let nearest = matches!(test, SphereTest::Exact | SphereTest::Box);
         // Planes are cheaper than the nearest point, but for boxes.
         let pieces = matches!(self.cells(), Some(CellShape::Frustum | CellShape::BoxedFrustum));
-        let half_spaces = self.test.asks(Separators::HALF_SPACES) || nearest && pieces && !self.is_boxed();
+        let half_spaces = test.asks(Separators::HALF_SPACES) || nearest && pieces && !self.is_boxed();
         let [edges, nearest_vertex, normals, vertices] =
             [Separators::EDGES, Separators::NEAREST_VERTEX, Separators::NORMALS, Separators::VERTICES]
-                .map(|separators| self.test.asks(separators));
+                .map(|separators| test.asks(separators));
         self.list_defines()
             .with("TEST_HS", u32::from(half_spaces))
             .with("TEST_SAT_E", u32::from(edges))
@@ -238,9 +248,10 @@ impl Variant {
             .with("TEST_SAT_P", u32::from(normals))
             .with("TEST_SAT_V", u32::from(vertices))
             .with("TEST_NEAREST", u32::from(nearest))
-            .with("TEST_MM", u32::from(self.test == SphereTest::Projected))
+            .with("TEST_MM", u32::from(test == SphereTest::Projected))
+            .with("CONES", self.cone_define())
             .with("BOXED", u32::from(self.is_boxed()))
-            .with("TEST_BOUNDED", u32::from(self.test.is_bounded(boxes) && !self.has_models()))
+            .with("TEST_BOUNDED", u32::from(test.is_bounded(boxes) && !self.has_models()))
     }
 }
 

@@ -13,7 +13,7 @@ use crate::config::{Config, FrameRange, Test};
 use crate::engine::{
     COUNTING_SLOT as SLOT, Counted, Engine, FramePlan, LargestGrid, Mode, Session, nothing, plan_frames,
 };
-use crate::geometry::SphereTest;
+use crate::geometry::VolumeTest;
 use crate::gpu_interface::ClusteringState;
 use crate::inputs::Inputs;
 use crate::lights::{FrameLights, Generator, LightTally, Lighting, LightsFrom, SpotShare};
@@ -41,12 +41,12 @@ pub struct AssignBench {
 
 impl AssignBench {
     /// The ways that serve a test.
-    fn assigners_for(&self, test: SphereTest) -> impl Iterator<Item = Assigner> {
-        self.assigners.iter().copied().filter(move |assigner| assigner.serves(test))
+    fn assigners_for(&self, test: VolumeTest) -> impl Iterator<Item = Assigner> {
+        self.assigners.iter().copied().filter(move |assigner| assigner.serves(test.sphere))
     }
 
     /// What the tests are for a method, each once.
-    pub fn tests_of(&self, method: &Method) -> Vec<SphereTest> {
+    pub fn tests_of(&self, method: &Method) -> Vec<VolumeTest> {
         let mut tests = vec![];
         for test in self.tests.iter().map(|test| test.of(method)) {
             if !tests.contains(&test) {
@@ -160,7 +160,7 @@ impl Ways {
 impl TimedFrame<'_> {
     fn measure(&self, session: &mut Session, bench: &AssignBench, watch: &Watch) -> Result<Vec<BenchRow>> {
         let tests = bench.tests_of(&self.run.methods[0]);
-        let served = |test: &SphereTest| bench.assigners_for(*test).next().is_some();
+        let served = |test: &VolumeTest| bench.assigners_for(*test).next().is_some();
         let ways = tests.into_iter().filter(served).map(|test| self.ways(session, bench, test));
         let mut ways = ways.collect::<Result<Vec<_>>>()?;
         for _ in 0..=bench.repeats {
@@ -171,7 +171,7 @@ impl TimedFrame<'_> {
     }
 
     /// All ways with a test, counted.
-    fn ways(&self, session: &mut Session, bench: &AssignBench, test: SphereTest) -> Result<Ways> {
+    fn ways(&self, session: &mut Session, bench: &AssignBench, test: VolumeTest) -> Result<Ways> {
         let run = &Config { test: vec![Test::Named(test)], ..self.run.clone() };
         let tested = TimedFrame { run, ..*self };
         let (mut rows, mut engines) = (vec![], vec![]);
@@ -209,7 +209,7 @@ impl TimedFrame<'_> {
         engine.render(session, SLOT, (self.plan, self.lights), extend)
     }
 
-    fn count(&self, session: &mut Session, (assigner, test): (Assigner, SphereTest)) -> Result<BenchRow> {
+    fn count(&self, session: &mut Session, (assigner, test): (Assigner, VolumeTest)) -> Result<BenchRow> {
         let mut engine = self.engine(session, assigner, true)?;
         let lights = self.lights.list.len() as u32;
         let states = engine.states(session, SLOT);

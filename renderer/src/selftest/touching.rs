@@ -35,7 +35,7 @@ pub fn check(context: &mut Context) -> Result<Verdict> {
             ..Capacities::default()
         };
         let case = Case { method, grid, lights: &lights, capacities };
-        let bench = context.bench((Assign::Brute, Test::Named(test)), case)?;
+        let bench = context.bench((Assign::Brute, Test::from(test)), case)?;
         bench.compact(&bits)?;
         let lists = bench.lists()?;
         let lost = (0u32..).zip(&touched).filter(|(light, cluster)| {

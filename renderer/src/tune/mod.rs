@@ -37,8 +37,8 @@ pub fn defaults() -> Config {
         assign: vec![Assign::Brute, Assign::Hierarchy, Assign::Scatter],
         test: vec![
             Test::Auto,
-            Test::Named(SphereTest::Exact),
-            Test::Named(SphereTest::HALF_SPACES_AND_NEAREST),
+            Test::from(SphereTest::Exact),
+            Test::from(SphereTest::HALF_SPACES_AND_NEAREST),
         ],
         runs: Runs::Auto,
         max_runs: 20,

@@ -3,6 +3,7 @@
 
 use manylight::config::{Assign, Config, ExrFrames, FrameRange};
 use manylight::draw_list::Batches;
+use manylight::geometry::ConeTest;
 use manylight::inputs::Inputs;
 use manylight::lights::Attenuation;
 use manylight::methods::{Method, model};
@@ -73,7 +74,7 @@ fn every_instance_has_the_list_of_its_own_box() {
     let batches = Batches::new(&inputs.scene);
     let mut source = inputs.light_source(&config.lights_of_run()).unwrap();
     let lights = source.at_frame(0).list.to_vec();
-    let twin = model::twin::light_lists(&inputs.scene, &batches, &lights, 1e-3);
+    let twin = model::twin::light_lists(&inputs.scene, &batches, (&lights, ConeTest::Unasked), 1e-3);
     let ways = vec![Assign::Brute, Assign::Hierarchy, Assign::Scatter];
     for run in run(Config { assign: ways, ..config.clone() }) {
         let (lists, counts) = (&run.lists[0], &run.counts[0].clusterings[0]);

@@ -42,6 +42,23 @@ fn every_way_of_assignment_shades_spots_in_both_eyes_with_four_samples() {
     assert_equal_the_truth(&runs, Marking::Depth);
 }
 
+/// Cones are asked of cells of every shape, and of what is measured in them.
+#[test]
+fn tests_of_cones_lose_no_light_that_is_needed() {
+    let names =
+        ["all-lights", "indi-persp-32", "encl-ortho-4", "t-e-28", "dc-e-48-20", "tiled-mm-32", "g-20", "m"];
+    let test = ["exact", "exact+cone-sat", "exact+cone"].map(|name| name.parse().unwrap()).to_vec();
+    let runs = run(Config { methods: methods(&names), test, ..config("bistro", 1, 0.8) });
+    assert_equal_the_truth(&runs, Marking::Depth);
+    for of_method in runs[1..].chunks(3) {
+        let computed = |place: usize| -> u64 {
+            of_method[place].counts.iter().map(|frame| frame.counters.lighting_computations).sum()
+        };
+        let [sphere, axes, exact] = [0, 1, 2].map(computed);
+        assert!(exact <= axes && axes < sphere, "{}: {sphere} {axes} {exact}", of_method[0].planned.name);
+    }
+}
+
 #[test]
 fn replays_tell_which_part_are_spots_and_say_what_no_part_is() {
     let directory = tempfile::tempdir().unwrap();

@@ -64,7 +64,7 @@ fn all_ways_agree((method, grid): (Method, Grid), test: Test, sets: &[Vec<Light>
     // How lists are kept does not depend on the test.
     let ways = ways.into_iter().take(if test == Test::Auto { 5 } else { 2 });
     let rectangles = [(Assign::Rectangles, Room::Plenty), (Assign::Rectangles, Room::None)];
-    let seen = rectangles.into_iter().filter(|_| test == Test::Named(SphereTest::Projected));
+    let seen = rectangles.into_iter().filter(|_| test == Test::from(SphereTest::Projected));
     for (assign, room) in ways.chain(seen) {
         let lists = lists_of((assign, test, room), (method, grid), sets, &bits);
         for (case, (these, those)) in lists.iter().zip(&brute).enumerate() {

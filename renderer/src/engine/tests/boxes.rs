@@ -115,7 +115,7 @@ fn lists_by_boxes_are_those_of_their_twin_by_all_ways() {
         }
         let twin = cpu::assign(&grid, clusters, &lights, SphereTest::Box, 1e-3);
         assert_eq!(list_checks::twin_fault(brute, &twin), None, "{law}");
-        let exact = Config { test: vec![Test::Named(SphereTest::Exact)], ..by_law(law) };
+        let exact = Config { test: vec![Test::from(SphereTest::Exact)], ..by_law(law) };
         let least = with_clusters(&exact, (ORTIZ, grid), &lights).0.lists();
         assert!(least.indices.len() > 1000 && least.indices.len() < brute.indices.len(), "{law}");
     }

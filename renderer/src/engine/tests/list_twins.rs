@@ -49,7 +49,7 @@ impl CulledDevice {
             let lights = light_upload::record(r, frame);
             cull_lights::cull_lights(r, frame, lights, given());
         });
-        Self { bench, grid, visible, test: test.of(&method), lights: lights.len() as u32, volumes }
+        Self { bench, grid, visible, test: test.of(&method).sphere, lights: lights.len() as u32, volumes }
     }
 
     fn visible(&self) -> Visible<'_> {

@@ -45,7 +45,7 @@ impl Case {
             light_indices: 8_000_000,
             ..Capacities::default()
         };
-        let config = Config { test: vec![Test::Named(test)], ..config() };
+        let config = Config { test: vec![Test::from(test)], ..config() };
         let mut bench = Bench::with_config(&config, method, self.grid, &self.lights, room);
         bench.compact(&self.bits);
         let lists = bench.lists();

@@ -3,7 +3,7 @@
 
 use crate::assign::Clusters;
 use crate::cpu::{self, LightLists, Visible};
-use crate::geometry::{Grid, SphereTest};
+use crate::geometry::{Grid, VolumeTest};
 use crate::lights::Light;
 
 /// The clusters of `grid` that get lists, by ascending index: of all, those with fragments, or every one.
@@ -16,6 +16,11 @@ pub fn listed_clusters(grid: &Grid, clusters: Clusters, fragments: &[u32]) -> Ve
 
 /// The light lists of those clusters, from lights in world space. Pairs whose margin is below `epsilon` (metres) are marked
 /// as too close to call.
-pub fn light_lists(listed: Visible, lights: &[Light], test: SphereTest, epsilon: f64) -> LightLists {
+pub fn light_lists(
+    listed: Visible,
+    lights: &[Light],
+    test: impl Into<VolumeTest>,
+    epsilon: f64,
+) -> LightLists {
     cpu::assign(listed.grid, listed.clusters, lights, test, epsilon)
 }

@@ -58,6 +58,7 @@ pub fn sheared_note(scene: &Scene) -> Option<String> {
 mod tests {
     use super::*;
     use crate::draw_list::Batches;
+    use crate::geometry::ConeTest;
     use crate::lights::Light;
     use crate::methods::GridBox;
     use crate::scene::procedural::by_name;
@@ -88,7 +89,7 @@ mod tests {
         let batches = Batches::new(&scene);
         let lights: Vec<_> =
             (0..40u8).map(|k| light([f32::from(k) * 3.0 - 60.0, f32::from(k % 7), -20.0], 6.0)).collect();
-        let lists = twin::light_lists(&scene, &batches, &lights, 0.0);
+        let lists = twin::light_lists(&scene, &batches, (&lights, ConeTest::Unasked), 0.0);
         let mut reached = 0;
         for (place, &index) in batches.instances.iter().enumerate() {
             let instance = &scene.instances[index as usize];

@@ -27,7 +27,7 @@ fn verdict(id: &str, runs: Vec<Run>) -> Verdict {
 /// What a run does that differs from its method's own.
 fn by(mut run: Run, test: SphereTest, clusters: Clusters, law: SliceLaw) -> Run {
     let config = Config {
-        test: vec![Test::Named(test)],
+        test: vec![Test::from(test)],
         clusters: vec![clusters.into()],
         slices: vec![law.into()],
         ..Config::default()
