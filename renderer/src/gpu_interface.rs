@@ -5,8 +5,8 @@ mod structs;
 
 pub use structs::{
     Candidate, ClusterBox, ClusterGroup, ClusteringState, DispatchSize, DrawCommand, DrawCounts, GridData,
-    HashData, InstanceData, LightData, LightNode, LightRectangle, LightVolume, MaterialData, ModelBox,
-    OctreeData, OctreeLayer, PixelData, Push, ViewData,
+    HashData, InstanceData, LightData, LightNode, LightRectangle, LightVolume, MaterialData, MeshFrame,
+    ModelBox, OctreeData, OctreeLayer, PixelData, Push, ViewData,
 };
 
 use crate::geometry::VolumeKind;
@@ -141,7 +141,7 @@ const TEXTURE_SLOTS: [(&str, TextureSlot); 5] = [
 ];
 
 /// Every shared struct; one comes after those it contains.
-const STRUCTS: [StructInfo; 21] = [
+const STRUCTS: [StructInfo; 22] = [
     ViewData::INFO,
     GridData::INFO,
     HashData::INFO,
@@ -150,6 +150,7 @@ const STRUCTS: [StructInfo; 21] = [
     ClusterBox::INFO,
     LightNode::INFO,
     LightVolume::INFO,
+    MeshFrame::INFO,
     LightRectangle::INFO,
     LightData::INFO,
     MaterialData::INFO,

@@ -1,0 +1,74 @@
+// The slices in which each light's mesh lies, tile by tile (Örtegren and Persson section 4.3), without rasterisation: a workgroup takes
+// a light (y) and as many tiles as it has threads (x), and each thread all triangles of the mesh with one tile.
+//
+//   light's frame, template ─> vertices in view space ─> eye inside? ─> depths in the tile ─> slices ─> shell_ranges
+//
+// All lights have the mesh of `mesh_vertices` and `mesh_triangles` (three 10-bit numbers a word).
+#version 460
+#include "lib/cluster_space.glsl"
+#include "lib/light_mesh.glsl"
+#include "lib/shell.glsl"
+
+layout(local_size_x = ASSIGN_WORKGROUP) in;
+
+shared vec3 vertices[MOST_MESH_VERTICES];
+shared uint eye_outside;
+
+Triangle read_triangle(uint triangle)
+{
+    uint packed = mesh_triangles[triangle];
+    Triangle read;
+    for (uint corner = 0u; corner < 3u; ++corner)
+        read.corners[corner] = vertices[packed >> 10u * corner & 0x3FFu];
+    return read;
+}
+
+Tile tile_at(uint tile)
+{
+    uvec2 at = uvec2(tile % grid.dimensions.x, tile / grid.dimensions.x);
+    precise vec2 low = grid.origin.xy + grid.cell.xy * vec2(at);
+    precise vec2 high = grid.origin.xy + grid.cell.xy * vec2(at + 1u);
+    return Tile(low, high);
+}
+
+uint slice_at(float depth)
+{
+    return slice_of(depth, clamped_slice_coordinate(depth));
+}
+
+// The slices between the least and the greatest depth that a triangle has in a tile.
+uint range_of(vec2 depths)
+{
+    bool begins_before_far = depths.x <= slice_planes[grid.dimensions.z];
+    bool ends_in_front = depths.y >= slice_planes[0];
+    uint first = begins_before_far ? slice_at(depths.x) : NO_SLICE;
+    uint behind = ends_in_front ? grid.dimensions.z - 1u - slice_at(depths.y) : NO_SLICE;
+    return first | behind << 16;
+}
+
+void main()
+{
+    uint light = gl_WorkGroupID.y, thread = gl_LocalInvocationIndex;
+    MeshFrame frame = light_frames[light];
+    for (uint vertex = thread; vertex < mesh_vertices.length(); vertex += ASSIGN_WORKGROUP)
+        vertices[vertex] = placed_vertex(frame, mesh_vertices[vertex]);
+    if (thread == 0u)
+        eye_outside = 0u;
+    barrier();
+    uint triangles = mesh_triangles.length();
+    for (uint triangle = thread; triangle < triangles; triangle += ASSIGN_WORKGROUP)
+        if (!eye_is_behind(read_triangle(triangle)))
+            atomicOr(eye_outside, 1u);
+    barrier();
+    uint tile = gl_GlobalInvocationID.x, tiles = grid.dimensions.x * grid.dimensions.y;
+    if (tile >= tiles)
+        return;
+    Tile sides = tile_at(tile);
+    uint range = eye_outside == 0u ? RANGE_FROM_THE_EYE : EMPTY_RANGE;
+    for (uint triangle = 0u; triangle < triangles; ++triangle) {
+        vec2 depths = depths_in_tile(read_triangle(triangle), sides);
+        if (depths.x <= depths.y)
+            range = joined_ranges(range, range_of(depths));
+    }
+    shell_ranges[light * tiles + tile] = range;
+}
