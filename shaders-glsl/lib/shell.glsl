@@ -1,6 +1,8 @@
 // What of a triangle of a light's mesh lies in a tile: step for step as cpu/shell.rs, which tells why, so that both get the same bits.
 #pragma once
 
+#include "lib/cluster_space.glsl"
+
 // What rounding may cost of a sum or a product, in parts of the coordinates that are in it.
 const float SHELL_ROUNDING = 1e-6;
 
@@ -62,14 +64,12 @@ vec4 tile_distances(vec3 point, Tile tile)
     return distances;
 }
 
-// A size that no term of the distances exceeds.
-float size_in_tile(Triangle triangle, Tile tile)
+// A size that no term of a point's distances exceeds.
+float size_in_tile(vec3 point, Tile tile)
 {
     vec2 widest = max(abs(tile.low), abs(tile.high));
-    precise float stretch = 1.0 + max(widest.x, widest.y);
-    precise vec3 sizes = vec3(size_of(triangle.corners[0]) * stretch, size_of(triangle.corners[1]) * stretch,
-                              size_of(triangle.corners[2]) * stretch);
-    return max(max(sizes.x, sizes.y), sizes.z);
+    precise float size = size_of(point) * (1.0 + max(widest.x, widest.y));
+    return size;
 }
 
 vec2 with_depth(vec2 found, float depth)
@@ -125,7 +125,9 @@ vec2 depths_in_tile(Triangle triangle, Tile tile)
     vec4 sides[3];
     for (uint corner = 0u; corner < 3u; ++corner)
         sides[corner] = tile_distances(triangle.corners[corner], tile);
-    precise float slack = SHELL_ROUNDING * size_in_tile(triangle, tile);
+    vec3 sizes = vec3(size_in_tile(triangle.corners[0], tile), size_in_tile(triangle.corners[1], tile),
+                      size_in_tile(triangle.corners[2], tile));
+    precise float slack = SHELL_ROUNDING * max(max(sizes.x, sizes.y), sizes.z);
     vec2 found = NO_DEPTHS;
     vec4 nearest = max(max(sides[0], sides[1]), sides[2]);
     if (min(min(nearest.x, nearest.y), min(nearest.z, nearest.w)) < -slack)
@@ -141,4 +143,26 @@ vec2 depths_in_tile(Triangle triangle, Tile tile)
         found = through_sides(sides[from], sides[to], depths, slack, found);
     }
     return through_triangle(triangle, tile, found);
+}
+
+Tile tile_at(uvec2 at)
+{
+    precise vec2 low = grid.origin.xy + grid.cell.xy * vec2(at);
+    precise vec2 high = grid.origin.xy + grid.cell.xy * vec2(at + 1u);
+    return Tile(low, high);
+}
+
+uint slice_at(float depth)
+{
+    return slice_of(depth, clamped_slice_coordinate(depth));
+}
+
+// The slices between the least and the greatest depth that a triangle has in a tile.
+uint range_of(vec2 depths)
+{
+    bool begins_before_far = depths.x <= slice_planes[grid.dimensions.z];
+    bool ends_in_front = depths.y >= slice_planes[0];
+    uint first = begins_before_far ? slice_at(depths.x) : NO_SLICE;
+    uint behind = ends_in_front ? grid.dimensions.z - 1u - slice_at(depths.y) : NO_SLICE;
+    return first | behind << 16;
 }

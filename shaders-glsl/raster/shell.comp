@@ -5,7 +5,6 @@
 //
 // All lights have the mesh of `mesh_vertices` and `mesh_triangles` (three 10-bit numbers a word).
 #version 460
-#include "lib/cluster_space.glsl"
 #include "lib/light_mesh.glsl"
 #include "lib/shell.glsl"
 
@@ -16,34 +15,24 @@ shared uint eye_outside;
 
 Triangle read_triangle(uint triangle)
 {
-    uint packed = mesh_triangles[triangle];
+    uint word = mesh_triangles[triangle];
     Triangle read;
     for (uint corner = 0u; corner < 3u; ++corner)
-        read.corners[corner] = vertices[packed >> 10u * corner & 0x3FFu];
+        read.corners[corner] = vertices[word >> 10u * corner & 0x3FFu];
     return read;
 }
 
-Tile tile_at(uint tile)
+// Whether all of the mesh lies beyond one side of a tile, by more than what rounding may have taken from any of its triangles.
+bool misses_tile(Tile tile, uint count)
 {
-    uvec2 at = uvec2(tile % grid.dimensions.x, tile / grid.dimensions.x);
-    precise vec2 low = grid.origin.xy + grid.cell.xy * vec2(at);
-    precise vec2 high = grid.origin.xy + grid.cell.xy * vec2(at + 1u);
-    return Tile(low, high);
-}
-
-uint slice_at(float depth)
-{
-    return slice_of(depth, clamped_slice_coordinate(depth));
-}
-
-// The slices between the least and the greatest depth that a triangle has in a tile.
-uint range_of(vec2 depths)
-{
-    bool begins_before_far = depths.x <= slice_planes[grid.dimensions.z];
-    bool ends_in_front = depths.y >= slice_planes[0];
-    uint first = begins_before_far ? slice_at(depths.x) : NO_SLICE;
-    uint behind = ends_in_front ? grid.dimensions.z - 1u - slice_at(depths.y) : NO_SLICE;
-    return first | behind << 16;
+    vec4 nearest = vec4(-3e38);
+    float size = 0.0;
+    for (uint vertex = 0u; vertex < count; ++vertex) {
+        nearest = max(nearest, tile_distances(vertices[vertex], tile));
+        size = max(size, size_in_tile(vertices[vertex], tile));
+    }
+    precise float slack = SHELL_ROUNDING * size;
+    return min(min(nearest.x, nearest.y), min(nearest.z, nearest.w)) < -slack;
 }
 
 void main()
@@ -63,7 +52,9 @@ void main()
     uint tile = gl_GlobalInvocationID.x, tiles = grid.dimensions.x * grid.dimensions.y;
     if (tile >= tiles)
         return;
-    Tile sides = tile_at(tile);
+    Tile sides = tile_at(uvec2(tile % grid.dimensions.x, tile / grid.dimensions.x));
+    if (misses_tile(sides, mesh_vertices.length()))
+        triangles = 0u;
     uint range = eye_outside == 0u ? RANGE_FROM_THE_EYE : EMPTY_RANGE;
     for (uint triangle = 0u; triangle < triangles; ++triangle) {
         vec2 depths = depths_in_tile(read_triangle(triangle), sides);
