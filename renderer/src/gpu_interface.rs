@@ -5,8 +5,8 @@ mod structs;
 
 pub use structs::{
     Candidate, ClusterBox, ClusterGroup, ClusteringState, DispatchSize, DrawCommand, DrawCounts, GridData,
-    HashData, InstanceData, LightData, LightNode, LightRectangle, LightVolume, MaterialData, ModelBox,
-    OctreeData, OctreeLayer, PixelData, Push, SpotData, ViewData,
+    HashData, InstanceData, LightData, LightNode, LightRectangle, LightVolume, MaterialData, MeshFrame,
+    ModelBox, OctreeData, OctreeLayer, PixelData, Push, SpotData, ViewData,
 };
 
 use crate::geometry::VolumeKind;
@@ -141,7 +141,7 @@ const TEXTURE_SLOTS: [(&str, TextureSlot); 5] = [
 ];
 
 /// Every shared struct; one comes after those it contains.
-const STRUCTS: [StructInfo; 22] = [
+const STRUCTS: [StructInfo; 23] = [
     ViewData::INFO,
     GridData::INFO,
     HashData::INFO,
@@ -150,6 +150,7 @@ const STRUCTS: [StructInfo; 22] = [
     ClusterBox::INFO,
     LightNode::INFO,
     LightVolume::INFO,
+    MeshFrame::INFO,
     LightRectangle::INFO,
     LightData::INFO,
     SpotData::INFO,

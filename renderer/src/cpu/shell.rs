@@ -10,8 +10,8 @@
 //! in any order, whether it faces the eye or not. Unlike other twins this one is in single precision, step for step as
 //! `lib/shell.glsl` has them: the device gets the same bits.
 
-use crate::gpu_interface::GridData;
-use glam::{Vec2, Vec3};
+use crate::gpu_interface::{GridData, MeshFrame};
+use glam::{Vec2, Vec3, Vec4};
 
 /// What rounding may cost of a sum or a product, in parts of the coordinates that are in it.
 const ROUNDING: f32 = 1e-6;
@@ -122,6 +122,12 @@ impl ShellGrid<'_> {
             if ends_in_front { self.slices() - 1 - self.slice_of(greatest) } else { SliceRange::NONE },
         )
     }
+}
+
+/// Where a frame takes a vertex of its mesh's template, metres: as `placed_vertex` of `lib/light_mesh.glsl`.
+pub fn placed(frame: &MeshFrame, vertex: Vec4) -> Vec3 {
+    let [origin, x, y, z, tip] = [frame.origin, frame.x, frame.y, frame.z, frame.tip].map(Vec3::from);
+    origin + x * vertex.x + y * vertex.y + z * vertex.z + tip * vertex.w
 }
 
 /// A light's mesh in the clustering camera's space.
@@ -266,7 +272,7 @@ fn through_triangle(&[a, b, c]: &[Vec3; 3], tile: &Tile, found: &mut Depths) {
         let inside = of_a.min(of_b).min(of_c) >= 0.0 || of_a.max(of_b).max(of_c) <= 0.0;
         let sum = of_a + of_b + of_c;
         let depth = -(of_a * a.z + of_b * b.z + of_c * c.z) / sum;
-        if inside && depth > 0.0 {
+        if inside && sum != 0.0 && depth > 0.0 {
             found.take(depth);
         }
     }

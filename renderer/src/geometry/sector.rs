@@ -192,9 +192,12 @@ mod tests {
             let (centre, radius) = sector.bounding_sphere();
             prop_assert!(centre.distance(point) <= radius + 1e-9);
             prop_assert!(towards.dot(point) <= sector.support(towards) + 1e-9);
-            // The direction within the cone that is nearest takes part in it, and none is nearer.
+            // The direction within the cone that is nearest takes part in it, also of what is along the axis, and none is nearer.
             let nearest = sector.nearest_direction(towards);
-            prop_assert!(nearest.angle_between(sector.axis) <= sector.half_angle + 1e-7);
+            for direction in [towards, -sector.axis, -7.3 * sector.axis, towards * 1e-14 - sector.axis] {
+                let angle = sector.nearest_direction(direction).angle_between(sector.axis);
+                prop_assert!(angle <= sector.half_angle + 1e-7, "{}", direction);
+            }
             let direction = (point - sector.apex).normalize_or(sector.axis);
             prop_assert!(towards.dot(direction) <= towards.dot(nearest) + 1e-9);
         }

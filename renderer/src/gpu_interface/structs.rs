@@ -1,5 +1,6 @@
 //! Structs that host and shaders share.
 
+use crate::geometry;
 use crate::gpu_struct;
 
 gpu_struct! {
@@ -150,6 +151,30 @@ gpu_struct! {
         pub kind: u32,
         /// Index of the light in the frame.
         pub light: u32,
+    }
+}
+
+gpu_struct! {
+    /// Takes the template of a light's mesh to clustering space: a vertex (x, y, z, t) to origin + x X + y Y + z Z + t T.
+    pub struct MeshFrame {
+        /// Where the coordinates are all 0, metres.
+        pub origin: [f32; 3],
+        /// X, metres.
+        pub x: [f32; 3],
+        /// Y, metres.
+        pub y: [f32; 3],
+        /// Z, metres.
+        pub z: [f32; 3],
+        /// T, metres: to the tip of a spot light's mesh; 0 of a sphere.
+        pub tip: [f32; 3],
+    }
+}
+
+impl From<&geometry::MeshFrame> for MeshFrame {
+    fn from(frame: &geometry::MeshFrame) -> Self {
+        let [x, y, z] = frame.axes.map(|axis| axis.as_vec3().to_array());
+        let [origin, tip] = [frame.origin, frame.tip].map(|place| place.as_vec3().to_array());
+        Self { origin, x, y, z, tip }
     }
 }
 

@@ -61,7 +61,8 @@ impl Case {
     /// Vertices as the device has them.
     fn vertices(&self, volume: &LightVolume) -> (Vec<Vec3>, &LightMesh) {
         let (mesh, frame) = self.mesh(volume);
-        (mesh.vertices.iter().map(|vertex| frame.place(*vertex).as_vec3()).collect(), mesh)
+        let frame = (&frame).into();
+        (mesh.vertices.iter().map(|vertex| placed(&frame, vertex.as_vec4())).collect(), mesh)
     }
 
     fn shell(&self, volume: &LightVolume) -> Vec<Option<[u32; 2]>> {
@@ -293,6 +294,62 @@ proptest! {
         prop_assert_eq!(one.joined(other).slices(255), Some(ends));
         prop_assert_eq!(SliceRange::from_bytes(one.to_bytes()), one);
         prop_assert_eq!(one.joined(SliceRange::EMPTY), one);
+    }
+}
+
+/// As the paper has it, triangles that face the eye tell where a light begins, and the others where it ends, where the eye is outside:
+/// all triangles together tell the same.
+#[test]
+fn front_faces_begin_and_back_faces_end_what_all_of_them_tell() {
+    let case = Case::new([7, 5, 16], SliceLaw::Geometric);
+    let (mut runner, strategy) = (TestRunner::deterministic(), (volume(), 0..35u32));
+    let mut some = 0;
+    for _ in 0..4000 {
+        let (volume, tile) = strategy.new_tree(&mut runner).unwrap().current();
+        let (vertices, mesh) = case.vertices(&volume);
+        let whole = ViewMesh { vertices: &vertices, triangles: &mesh.triangles };
+        if whole.eye_is_inside() {
+            continue;
+        }
+        let behind = |triangle: &&[u16; 3]| eye_is_behind(&whole.corners(triangle));
+        let (back, front): (Vec<[u16; 3]>, Vec<[u16; 3]>) = mesh.triangles.iter().partition(behind);
+        let of = |triangles: &[[u16; 3]]| {
+            shell_of_tile(&case.shell_grid(), &ViewMesh { vertices: &vertices, triangles }, tile).halves()
+        };
+        // A mesh of back faces alone counts as one around the eye, so that only its other half is asked.
+        let ([first, _], [_, last]) = (of(&front), of(&back));
+        assert_eq!([first, last], of(&mesh.triangles), "{volume:?}");
+        some += u32::from(first != SliceRange::NONE);
+    }
+    assert!(some > 400, "{some}");
+}
+
+/// How many cells a light's mesh is in beyond those that the light reaches, in parts of these: around 4 % of points, 4 to 9 % of spots
+/// of up to 45 degrees, 13 to 21 % of wider ones, over grids of 24 x 12 x 32 to 48 x 24 x 32 cells.
+#[test]
+fn meshes_are_in_few_cells_in_vain() {
+    let case = Case::new([18, 10, 24], SliceLaw::SecondPlane { metres: 3.0 });
+    for (angles, most) in [(None, 0.08), (Some(8.0..45.0), 0.12), (Some(45.0..90.0), 0.25)] {
+        let (mut runner, strategy) = (TestRunner::deterministic(), (volume(), 0.0..1.0f64));
+        let (mut found, mut reached) = (0, 0);
+        for _ in 0..60 {
+            let (volume, part) = strategy.new_tree(&mut runner).unwrap().current();
+            let apex = DVec3::new(0.0, 0.0, -4.0 - 30.0 * part);
+            let volume = match &angles {
+                None => LightVolume::sphere(apex, 2.0 + 4.0 * part),
+                Some(std::ops::Range { start, end }) => {
+                    spot(apex, volume.centre, 2.0 + 4.0 * part, start + (end - start) * part)
+                }
+            };
+            for (tile, slices) in (0..).zip(case.shell(&volume)) {
+                for slice in slices.into_iter().flat_map(|[first, last]| first..=last) {
+                    found += 1;
+                    reached += u32::from(case.exact(&volume, [tile % 18, tile / 18, slice]) >= 0.0);
+                }
+            }
+        }
+        let in_vain = f64::from(found - reached) / f64::from(reached);
+        assert!((0.01..most).contains(&in_vain), "{found} for {reached}, {angles:?}");
     }
 }
 

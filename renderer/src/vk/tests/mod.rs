@@ -2,6 +2,7 @@
 
 mod compute;
 mod graphics;
+mod light_geometry;
 
 use super::*;
 use crate::scene;
@@ -83,6 +84,10 @@ impl Bindings {
     }
 
     fn dispatch(&self, pipeline: &Pipeline, groups: u32) {
+        self.dispatch_grid(pipeline, [groups, 1, 1]);
+    }
+
+    fn dispatch_grid(&self, pipeline: &Pipeline, [x, y, z]: [u32; 3]) {
         let device = &self.context.device;
         let compute = vk::PipelineBindPoint::COMPUTE;
         self.context
@@ -90,7 +95,7 @@ impl Bindings {
                 self.context.begin_label(cmd, c"test");
                 device.cmd_bind_pipeline(cmd, compute, pipeline.handle);
                 device.cmd_bind_descriptor_sets(cmd, compute, self.layout, 0, &[self.set], &[]);
-                device.cmd_dispatch(cmd, groups, 1, 1);
+                device.cmd_dispatch(cmd, x, y, z);
                 self.context.end_label(cmd);
                 to_host(&self.context, cmd);
             })

@@ -1,0 +1,14 @@
+// Meshes that hold what lights reach: a template of four coordinates a vertex, which a light's frame takes to the clustering camera's
+// space (geometry/light_mesh.rs).
+#pragma once
+
+#include "generated/gpu_interface.glsl"
+
+// Those of the finest sphere.
+const uint MOST_MESH_VERTICES = 642u;
+
+vec3 placed_vertex(MeshFrame frame, vec4 vertex)
+{
+    precise vec3 place = frame.origin + frame.x * vertex.x + frame.y * vertex.y + frame.z * vertex.z + frame.tip * vertex.w;
+    return place;
+}
