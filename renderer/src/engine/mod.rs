@@ -38,7 +38,9 @@ use crate::culling::Culling;
 use crate::gpu_interface::{ClusteringState, LightData};
 use crate::layouts::Pipeline;
 use crate::lights::FrameLights;
-use crate::measure::{ClusteringCounts, FrameCounts, GrowthEvent, OctreeCounts, StructureMemory};
+use crate::measure::{
+    ClusteringCounts, FrameCounts, GrowthEvent, OctreeBuild, OctreeCounts, StructureMemory,
+};
 use crate::methods::{GridBox, Method};
 use crate::octree::LinklessOctree;
 use crate::pass::{Recorder, ScopeTree, Timed};
@@ -192,6 +194,11 @@ impl Engine {
     /// The octree of the frame written last; `None` where the method has none.
     pub fn octree(&self) -> Option<&LinklessOctree> {
         self.octree.as_ref().and_then(HostOctree::octree)
+    }
+
+    /// How the octree was built in `frame`, the frame written last; `None` where it was not.
+    pub fn octree_build(&self, frame: u32) -> Option<OctreeBuild> {
+        self.octree.as_ref().and_then(|octree| octree.build(frame))
     }
 
     /// What is told of the octree of the frame written last; `None` where the method has none.

@@ -11,7 +11,7 @@ use super::{Engine, FramePlan, Session};
 use crate::buffers::BufferName;
 use crate::clustering::FRAME_SLOTS;
 use crate::lights::FrameLights;
-use crate::measure::{GrowthEvent, OctreeCounts, OctreeSizes};
+use crate::measure::{GrowthEvent, OctreeBuild, OctreeCounts, OctreeSizes};
 use crate::methods::Method;
 use crate::methods::hashed::{self, HashedMethod, OctreeWay, SceneGeometry};
 use crate::octree::{BuildTimes, LinklessOctree, OctreeError, OctreeLimits, OctreeSettings, Sphere};
@@ -145,6 +145,13 @@ impl HostOctree {
             wanted: !self.there && self.octree().is_some(),
             times: self.times,
         }
+    }
+
+    /// How the octree was built in `frame`, the frame at hand; `None` where it was not.
+    pub fn build(&self, frame: u32) -> Option<OctreeBuild> {
+        let octree = self.octree().filter(|_| self.rebuilds > 0)?;
+        let (lights, nodes) = (self.spheres.len() as u64, octree.nodes());
+        Some(OctreeBuild { frame, lights, nodes, times: self.times })
     }
 
     /// What is told of the frame at hand.

@@ -1,7 +1,8 @@
 //! What is told of the octree of a frame.
 
 use super::OctreeSizes;
-use crate::octree::TableMemory;
+use crate::octree::{BuildTimes, TableMemory};
+use std::fmt;
 
 /// The octree over the lights of a frame.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -44,4 +45,36 @@ pub struct OctreeTable {
     pub memory: TableMemory,
     /// Lights of all its leaves.
     pub light_indices: u64,
+}
+
+/// When an octree was built whose steps no timed frame has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BuildPhase {
+    /// In a frame that was counted.
+    Counted,
+    /// In the frame that warms up, before those that are timed.
+    WarmUp,
+}
+
+impl fmt::Display for BuildPhase {
+    /// Its name in tables.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Counted => "counted",
+            Self::WarmUp => "warm-up",
+        })
+    }
+}
+
+/// How an octree was built over the lights of a frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OctreeBuild {
+    /// Frame number in the recording.
+    pub frame: u32,
+    /// How many lights there were.
+    pub lights: u64,
+    /// How many nodes its tables hold.
+    pub nodes: u64,
+    /// How long each step took.
+    pub times: BuildTimes,
 }

@@ -51,6 +51,17 @@ pub struct BuildTimes {
 }
 
 impl BuildTimes {
+    /// Names of the steps, in order.
+    pub const STEPS: [&str; 5] =
+        ["empty_octree", "light_octrees", "add_lights", "merge_nodes", "hash_layers"];
+
+    /// Each step with its seconds, in order.
+    pub fn steps(&self) -> [(&'static str, f64); 5] {
+        let Self { empty, lights, adding, merging, linkless } = *self;
+        let seconds = [empty, lights, adding, merging, linkless];
+        std::array::from_fn(|step| (Self::STEPS[step], seconds[step]))
+    }
+
     /// All steps together, seconds.
     pub fn total(&self) -> f64 {
         self.empty + self.lights + self.adding + self.merging + self.linkless

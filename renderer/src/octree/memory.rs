@@ -48,6 +48,12 @@ impl TableMemory {
 }
 
 impl LinklessOctree {
+    /// How many nodes all tables hold.
+    pub fn nodes(&self) -> u64 {
+        let tables = self.layers.iter().flat_map(|layer| [Some(layer.structure), layer.data]);
+        tables.flatten().map(|table| u64::from(table.keys)).sum()
+    }
+
     /// What each layer's tables take, without the light indices.
     pub fn memory(&self) -> Vec<LayerMemory> {
         let layers = self.layers.iter().zip(self.frame.start_depth..);

@@ -1,7 +1,7 @@
 //! The rows of a run's CSV tables, each declared once: header, writer and readers follow from the type.
 
 use super::stages::{self, StageMinima};
-use crate::measure::{FrameCounts, OctreeTable, StructureMemory};
+use crate::measure::{BuildPhase, FrameCounts, OctreeBuild, OctreeTable, StructureMemory};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -311,6 +311,40 @@ impl OctreeRow {
             offset_bytes: table.memory.offset_bytes,
             light_indices: table.light_indices,
         }
+    }
+}
+
+row! {
+    /// One step of building an octree beside the timed frames.
+    "octree_builds.csv" OctreeBuildRow {
+        /// When: the name of a [`BuildPhase`].
+        phase: String,
+        /// Frame number in the recording.
+        frame: u32,
+        /// Which step: one of [`BuildTimes::STEPS`](crate::octree::BuildTimes::STEPS).
+        step: String,
+        /// What it took the host, milliseconds.
+        #[serde(serialize_with = "cell::ms")]
+        cpu_ms: f64,
+        /// Lights of the frame.
+        lights: u64,
+        /// Nodes that the tables hold.
+        nodes: u64,
+    }
+}
+
+impl OctreeBuildRow {
+    /// The rows of a build, step by step.
+    pub fn of(phase: BuildPhase, build: &OctreeBuild) -> impl Iterator<Item = Self> {
+        let OctreeBuild { frame, lights, nodes, times } = *build;
+        times.steps().into_iter().map(move |(step, seconds)| Self {
+            phase: phase.to_string(),
+            frame,
+            step: step.into(),
+            cpu_ms: 1e3 * seconds,
+            lights,
+            nodes,
+        })
     }
 }
 

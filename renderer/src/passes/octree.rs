@@ -67,16 +67,7 @@ pub struct OctreeTables<'a> {
 pub fn record(r: &mut Recorder, frame: &Frame) -> LightLists {
     let Some(tables) = &frame.octree else { return LightLists::NONE };
     r.scope("octree", |r| {
-        let BuildTimes { empty, lights, adding, merging, linkless } = tables.times;
-        for (step, seconds) in [
-            ("empty_octree", empty),
-            ("light_octrees", lights),
-            ("add_lights", adding),
-            ("merge_nodes", merging),
-            ("hash_layers", linkless),
-        ] {
-            r.host_step(step, seconds);
-        }
+        tables.times.steps().into_iter().for_each(|(step, seconds)| r.host_step(step, seconds));
         r.scope("upload", |r| {
             if tables.wanted {
                 frame.clusterings.iter().for_each(|this| upload(r, tables, &this.buffers));

@@ -4,6 +4,7 @@ use manylight::assign::Marking;
 use manylight::config::{Config, FrameRange};
 use manylight::lights::{GeneratorKind, Lighting};
 use manylight::measure::FrameTimes;
+use manylight::octree::BuildTimes;
 use manylight_tests::{Run, assert_equal_the_truth, manylight, methods, run, three_frames};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -22,9 +23,6 @@ fn rebuilds(run: &Run) -> Vec<u64> {
     run.counts.iter().map(|counts| counts.octree_rebuilds()).collect()
 }
 
-/// The steps of building an octree, each a stage.
-const STEPS: [&str; 5] = ["empty_octree", "light_octrees", "add_lights", "merge_nodes", "hash_layers"];
-
 /// CPU milliseconds of the steps of building, and GPU milliseconds of the upload, of a frame.
 fn building(frame: &FrameTimes) -> [f64; 2] {
     let stage = |name: &str| {
@@ -32,7 +30,7 @@ fn building(frame: &FrameTimes) -> [f64; 2] {
         let found = frame.stages.iter().find(|stage| stage.stage == path);
         found.unwrap_or_else(|| panic!("{path} is no stage of {:?}", frame.stages))
     };
-    [STEPS.iter().map(|step| stage(step).cpu_ms).sum(), stage("upload").gpu_ms]
+    [BuildTimes::STEPS.iter().map(|step| stage(step).cpu_ms).sum(), stage("upload").gpu_ms]
 }
 
 #[test]
@@ -70,6 +68,20 @@ fn lights_that_move_have_an_octree_of_their_own_in_each_frame() {
 /// The rows of a table, by column.
 fn rows(path: &Path) -> Vec<BTreeMap<String, String>> {
     csv::Reader::from_path(path).unwrap().deserialize().collect::<Result<_, _>>().unwrap()
+}
+
+/// Checks the rows of the builds of a run with static lights: one in the first frame that is counted, one before the first timed.
+fn builds_are_told(builds: &[BTreeMap<String, String>], tables: &[BTreeMap<String, String>]) {
+    let told = |column: &str| builds.iter().map(|row| row[column].as_str()).collect::<Vec<_>>();
+    assert_eq!(told("phase"), [["counted"; 5], ["warm-up"; 5]].concat());
+    assert_eq!(told("step"), [BuildTimes::STEPS; 2].concat());
+    let nodes: u64 = tables.iter().map(|row| row["keys"].parse::<u64>().unwrap()).sum();
+    for row in builds {
+        let columns = ["frame", "lights", "nodes"].map(|column| row[column].clone());
+        assert_eq!(columns, ["100".to_owned(), "200".to_owned(), nodes.to_string()]);
+    }
+    let took = |row: &&BTreeMap<String, String>| row["cpu_ms"].parse::<f64>().unwrap() > 0.0;
+    assert!(builds.iter().all(|row| took(&row)), "{builds:?}");
 }
 
 #[test]
@@ -117,6 +129,7 @@ fn tables_tell_what_an_octree_takes() {
     assert_eq!(of_frames("octree_rebuilds"), ["1", "0", "0"]);
     assert_eq!(of_frames("octree_bytes"), [told.to_string(), told.to_string(), told.to_string()]);
     assert_eq!(of_frames("visible_clusters")[0], sum("data", "keys").to_string());
+    builds_are_told(&rows(&run.join("octree_builds.csv")), &tables);
     let memory = rows(&run.join("memory.csv"));
     let held = |name: &str| memory.iter().find(|row| row["structure"] == name).unwrap()["allocated"].clone();
     assert_eq!(held("octree_nodes"), slots[0].to_string());
