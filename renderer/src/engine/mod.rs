@@ -219,7 +219,7 @@ impl Engine {
     fn make_clusterings(&mut self, session: &Session) -> Result<()> {
         self.clusterings.clear();
         if let Some(octree) = &mut self.octree {
-            octree.there = false;
+            octree.lost();
         }
         let slots = &session.frame_slots;
         let shared: [SharedBuffer; 8] = [
@@ -265,7 +265,7 @@ impl Engine {
         });
         self.clusterings.iter_mut().for_each(|clustering| clustering.builds_boxes = false);
         if let Some(octree) = &mut self.octree {
-            octree.there = true;
+            octree.submitted();
         }
         session.frame_slots[slot].submit()
     }

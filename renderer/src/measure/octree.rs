@@ -7,8 +7,14 @@ use std::fmt;
 /// The octree over the lights of a frame.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct OctreeCounts {
-    /// How often the frame built it: 0 or 1.
+    /// How often the frame built it as a whole: 0 or 1.
     pub rebuilds: u64,
+    /// How many of its tables the frame hashed: all where it built it.
+    pub tables_hashed: u64,
+    /// What the frame took to the device of it, bytes.
+    pub uploaded: u64,
+    /// Light indices of lights that do not reach all cells of their leaf, which an octree that is kept leaves in lists.
+    pub extra_indices: u64,
     /// Entries of its tables.
     pub sizes: OctreeSizes,
     /// Its tables, by depth, of a frame that built it.

@@ -79,7 +79,8 @@ macro_rules! frame_row {
         row! {
             /// A frame: the counters of the atemporal run, and GPU milliseconds, of each stage the minimum over the
             /// temporal runs; `None` where nothing was timed.
-            "frames.csv" FrameRow added fragments_hidden lights_dropped depth_discontinuity octree_rebuilds octree_bytes {
+            "frames.csv" FrameRow added fragments_hidden lights_dropped depth_discontinuity octree_rebuilds octree_bytes
+                octree_tables_hashed octree_bytes_uploaded octree_extra_indices {
                 /// Frame number in the recording.
                 frame: u32,
                 /// Its time in the recording, seconds.
@@ -165,6 +166,15 @@ frame_row! {
         /// What the octree's tables take, bytes.
         #[serde(default)]
         octree_bytes: u64 = FrameCounts::octree_bytes;
+        /// Tables of the octree that the frame hashed: all where it built one.
+        #[serde(default)]
+        octree_tables_hashed: u64 = FrameCounts::octree_tables_hashed;
+        /// What the frame took to the device of it, bytes.
+        #[serde(default)]
+        octree_bytes_uploaded: u64 = FrameCounts::octree_bytes_uploaded;
+        /// Light indices of lights that do not reach all of their leaf, in octrees that are kept.
+        #[serde(default)]
+        octree_extra_indices: u64 = FrameCounts::octree_extra_indices;
     }
     times {
         /// The whole frame.
