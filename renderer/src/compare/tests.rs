@@ -121,8 +121,8 @@ fn equal_runs_are_joined_wherever_they_lie_and_whatever_their_output_was_called(
     let visible = counter(&same, "visible_clusters");
     assert_eq!((visible.a, visible.b, visible.ratio), (Some(150), Some(150), Some(1.0)));
     let metrics: Vec<&str> = same.runs[0].counters.iter().map(|counter| counter.metric.as_str()).collect();
-    assert_eq!(metrics[metrics.len() - 3..], ["octree_bytes", "clusterings.csv", "histograms.csv"]);
-    assert!(same.to_string().contains("counters: all 19 equal in 2 frames"), "{same}");
+    assert_eq!(metrics[metrics.len() - 3..], ["octree_extra_indices", "clusterings.csv", "histograms.csv"]);
+    assert!(same.to_string().contains("counters: all 22 equal in 2 frames"), "{same}");
 }
 
 #[test]

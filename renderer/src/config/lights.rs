@@ -1,7 +1,7 @@
 //! Where the lights of a configuration come from, and what its settings mean to what makes them.
 
 use super::{Config, LightsFrom};
-use crate::lights::{GammaRadii, GammaRecipe, Generator, GeneratorKind, VolumeRecipe};
+use crate::lights::{GammaRadii, GammaRecipe, Generator, GeneratorKind, LightMotion, VolumeRecipe};
 use crate::{Error, Result};
 
 impl Config {
@@ -29,7 +29,8 @@ impl Config {
                     mean: self.light_radius_mean.unwrap_or(usual.mean),
                 };
                 let motion = self.light_motion.unwrap_or_default();
-                Generator::Gamma(place, GammaRecipe { seed, radii, motion })
+                let moving = self.light_moving.unwrap_or(1.0);
+                Generator::Gamma(place, GammaRecipe { seed, radii, motion, moving })
             }
             GeneratorKind::Volume => {
                 let (volumes, set) = (self.light_volumes.clone(), self.light_set);
@@ -56,18 +57,33 @@ impl Config {
                 takers.join(" or ")
             )));
         }
+        self.check_moving()?;
         let generator = self.generator();
         let checked = self.lights.iter().try_for_each(|lighting| generator.check(lighting));
         checked.map_err(|message| Error::Input(format!("lights: {message}")))
     }
 
+    /// Refuses a part that is none, and one of lights that do not move.
+    fn check_moving(&self) -> Result<()> {
+        match (self.light_moving, self.light_motion.unwrap_or_default()) {
+            (Some(part), _) if !(0.0..=1.0).contains(&part) => {
+                Err(Error::Input(format!("light_moving: {part} is no part of the lights: give 0 to 1")))
+            }
+            (Some(_), LightMotion::Static) => Err(Error::input(
+                "light_moving: static lights do not move: leave it out, or set light_motion to bounce",
+            )),
+            _ => Ok(()),
+        }
+    }
+
     /// The first setting given that means nothing to what makes the lights, and the generators that know it.
     fn idle_light_setting(&self) -> Option<(&'static str, &'static [GeneratorKind])> {
         use GeneratorKind::{Gamma, Volume};
-        let all: [(_, _, &'static [GeneratorKind]); 7] = [
+        let all: [(_, _, &'static [GeneratorKind]); 8] = [
             ("light_seed", self.light_seed.is_some(), &[Gamma, Volume]),
             ("light_box", self.light_box.is_some(), &[Gamma, Volume]),
             ("light_motion", self.light_motion.is_some(), &[Gamma]),
+            ("light_moving", self.light_moving.is_some(), &[Gamma]),
             ("light_radius_mode", self.light_radius_mode.is_some(), &[Gamma]),
             ("light_radius_mean", self.light_radius_mean.is_some(), &[Gamma]),
             ("light_volumes", !self.light_volumes.is_empty(), &[Volume]),
@@ -84,6 +100,7 @@ impl Config {
         self.light_seed = usual.light_seed;
         self.light_box = usual.light_box;
         self.light_motion = usual.light_motion;
+        self.light_moving = usual.light_moving;
         self.light_radius_mode = usual.light_radius_mode;
         self.light_radius_mean = usual.light_radius_mean;
         self.light_volumes = usual.light_volumes;

@@ -133,8 +133,8 @@ pub(super) fn compaction(_: &mut SchemaGenerator) -> Schema {
 pub(super) fn octree(_: &mut SchemaGenerator) -> Schema {
     one_or_several(&json_schema!({
         "type": "string",
-        "pattern": "^(rebuild|seed-[0-9]+|shared|geometry)$",
-        "examples": ["rebuild", "seed-7", "shared", "geometry"]
+        "pattern": "^(rebuild|seed-[0-9]+|shared|geometry|dynamic-[0-9]+(\\.[0-9]+)?)$",
+        "examples": ["rebuild", "seed-7", "shared", "geometry", "dynamic-1.5"]
     }))
 }
 

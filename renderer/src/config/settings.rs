@@ -92,6 +92,11 @@ settings! {
     light_motion: LightMotion, Counts {
         arg(long, value_enum)
     }
+    /// Which part of the lights that bounce does (1); every so many-th of them, the others stay.
+    light_moving: f64, Counts {
+        arg(long, value_name = "PART", allow_hyphen_values = true)
+        schemars(range(min = 0, max = 1))
+    }
     /// Most frequent radius of `gamma`, metres (0.25); below the mean.
     light_radius_mode: f64, Counts {
         arg(long, value_name = "METRES", allow_hyphen_values = true)
@@ -281,8 +286,8 @@ settings! {
         check(values::check_ways)
     }
     /// How the octrees of method hashed are made: `rebuild` (anew where lights are others), `seed-N` (the same, their hashes by
-    /// another seed), `shared` (leaves with the same lights share one run of light indices), or `geometry` (only where the scene has
-    /// surfaces). Of several, with commas between, each is a run of every such method.
+    /// another seed), `shared` (leaves with the same lights share one run of light indices), `geometry` (only where the scene has
+    /// surfaces), or `dynamic-SLACK` (edited where lights have changed, in tables with SLACK slots a key). Of several, with commas between, each is a run of every such method.
     octree: Vec<OctreeWay> = vec![OctreeWay::Rebuild], Run {
         arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::octree_way)
         serde(default, deserialize_with = "de::ways")

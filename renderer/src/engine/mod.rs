@@ -40,7 +40,9 @@ use crate::geometry::ConeTest;
 use crate::gpu_interface::ClusteringState;
 use crate::layouts::Pipeline;
 use crate::lights::FrameLights;
-use crate::measure::{ClusteringCounts, FrameCounts, GrowthEvent, OctreeCounts, StructureMemory};
+use crate::measure::{
+    ClusteringCounts, FrameCounts, GrowthEvent, OctreeBuild, OctreeCounts, StructureMemory,
+};
 use crate::methods::{GridBox, Method};
 use crate::octree::LinklessOctree;
 use crate::pass::{Recorder, ScopeTree, Timed};
@@ -181,6 +183,11 @@ impl Engine {
         self.octree.as_ref().and_then(HostOctree::octree)
     }
 
+    /// How the octree was built in `frame`, the frame written last; `None` where it was not.
+    pub fn octree_build(&self, frame: u32) -> Option<OctreeBuild> {
+        self.octree.as_ref().and_then(|octree| octree.build(frame))
+    }
+
     /// What is told of the octree of the frame written last; `None` where the method has none.
     pub fn octree_counts(&self) -> Option<OctreeCounts> {
         self.octree.as_ref().and_then(HostOctree::counts)
@@ -199,7 +206,7 @@ impl Engine {
     fn make_clusterings(&mut self, session: &Session) -> Result<()> {
         self.clusterings.clear();
         if let Some(octree) = &mut self.octree {
-            octree.there = false;
+            octree.lost();
         }
         let slots = &session.frame_slots;
         let [lights, spots] = self.lights.shared();
@@ -247,7 +254,7 @@ impl Engine {
         });
         self.clusterings.iter_mut().for_each(|clustering| clustering.builds_boxes = false);
         if let Some(octree) = &mut self.octree {
-            octree.there = true;
+            octree.submitted();
         }
         session.frame_slots[slot].submit()
     }

@@ -1,9 +1,9 @@
-//! The octree over a frame's lights: built on the host where they are others than those of the last frame, its tables on their way to
-//! the device.
+//! The octree over a frame's lights: built, or edited, on the host where they are others than those of the last frame, its tables on
+//! their way to the device.
 //!
 //! ```text
 //! lights, slack ──(changed)──> octree ──> sizes ──(more than there is room for)──> larger buffers
-//!                                └──> staging of the slot ──(frame)──> tables on the device
+//!                                └──> what the device lacks ──> staging of the slot ──(frame)──> tables on the device
 //! ```
 
 use super::growth::with_margin;
@@ -11,15 +11,20 @@ use super::{Engine, FramePlan, Session};
 use crate::buffers::BufferName;
 use crate::clustering::FRAME_SLOTS;
 use crate::lights::FrameLights;
-use crate::measure::{GrowthEvent, OctreeCounts, OctreeSizes};
+use crate::measure::{GrowthEvent, OctreeBuild, OctreeCounts, OctreeSizes};
 use crate::methods::Method;
 use crate::methods::hashed::{self, HashedMethod, OctreeWay, SceneGeometry};
-use crate::octree::{BuildTimes, LinklessOctree, OctreeError, OctreeLimits, OctreeSettings, Sphere};
+use crate::octree::{
+    BuildTimes, Dirty, DynamicOctree, LinklessOctree, OctreeError, OctreeGeometry, OctreeLimits,
+    OctreeSettings, Sphere,
+};
 use crate::passes::octree::{OctreeTables, Table};
 use crate::vk::{Buffer, Context, Limits, Memory};
 use crate::{Error, Result};
 use ash::vk;
+use bytemuck::Pod;
 use glam::DVec3;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// What an octree was built of.
@@ -31,10 +36,40 @@ struct Basis {
     slack: f64,
 }
 
+/// An octree.
+enum Tree {
+    /// That is built of lights and stays as it is.
+    Built(LinklessOctree),
+    /// That follows its lights.
+    Kept(Box<DynamicOctree>),
+}
+
+impl Tree {
+    fn tables(&self) -> &LinklessOctree {
+        match self {
+            Self::Built(octree) => octree,
+            Self::Kept(octree) => octree.octree(),
+        }
+    }
+}
+
 /// An octree with what it was built of.
 struct Standing {
-    octree: LinklessOctree,
+    tree: Tree,
     of: Basis,
+    /// The frame that asked for it first.
+    frame: u32,
+}
+
+/// What a frame did to the octree.
+#[derive(Debug, Clone, Copy, Default)]
+struct Done {
+    /// How often it built one as a whole.
+    rebuilds: u64,
+    /// Tables that it hashed.
+    tables_hashed: u64,
+    /// How long that took.
+    times: BuildTimes,
 }
 
 /// The octree of an engine whose method has one.
@@ -47,12 +82,12 @@ pub(super) struct HostOctree {
     spheres: Vec<Sphere>,
     /// Tables as the host writes them, for each frame in flight.
     staging: [[Buffer; Table::ALL.len()]; FRAME_SLOTS],
-    /// Whether the device has the tables.
-    pub there: bool,
-    /// How often the frame at hand built an octree.
-    rebuilds: u64,
-    /// How long that took.
-    times: BuildTimes,
+    /// What of the tables the device has not.
+    lacking: Dirty,
+    /// What the frame at hand did.
+    done: Done,
+    /// What it takes to the device, bytes.
+    uploaded: u64,
 }
 
 impl HostOctree {
@@ -70,39 +105,79 @@ impl HostOctree {
             bounds: None,
             spheres: vec![],
             staging: staging(context, room)?,
-            there: false,
-            rebuilds: 0,
-            times: BuildTimes::default(),
+            lacking: Dirty::All,
+            done: Done::default(),
+            uploaded: 0,
         }))
     }
 
-    /// Brings the octree to a frame's lights, whose slack is a function of how far they reach at most from `origin`.
+    /// Brings the octree to the lights of `frame`, whose slack is a function of how far they reach at most from `origin`.
     fn update(
         &mut self,
-        lights: FrameLights,
+        (frame, lights): (u32, FrameLights),
         (origin, reach): (DVec3, f64),
         (surfaces, limits): (Option<&SceneGeometry>, &Limits),
     ) -> std::result::Result<(), OctreeError> {
         let slack = hashed::slack(reach + self.farthest(lights, origin));
         let wanted = Basis { revision: lights.revision, slack };
-        (self.rebuilds, self.times) = (0, BuildTimes::default());
+        self.done = Done::default();
         if self.standing.as_ref().is_some_and(|standing| standing.of == wanted) {
             return Ok(());
         }
         self.spheres.clear();
         self.spheres.extend(hashed::reaches(lights.list, slack));
+        let room = hashed::largest_radius(lights.list);
         let settings = OctreeSettings {
             limits: octree_limits(limits),
-            ..self.way.of(self.method.settings(lights.list))
+            ..self.way.of(self.method.settings(lights.list), room)
         };
-        let surfaces = surfaces.filter(|_| self.way == OctreeWay::Geometry);
-        let built = match surfaces.and_then(|surfaces| surfaces.within(slack)) {
-            Some(triangles) => LinklessOctree::build_for(&self.spheres, triangles, &settings)?,
-            None => LinklessOctree::build(&self.spheres, &settings)?,
+        let kept = self.standing.take().and_then(|standing| standing.kept(frame, slack, settings.node));
+        let tree = match kept {
+            Some(tree) => self.edit(tree)?,
+            None => self.make(surfaces.and_then(|surfaces| surfaces.within(slack)), &settings)?,
         };
-        self.standing = Some(Standing { octree: built.octree, of: wanted });
-        (self.rebuilds, self.times, self.there) = (1, built.times, false);
+        self.standing = Some(Standing { tree, of: wanted, frame });
         Ok(())
+    }
+
+    /// The octree over the spheres.
+    fn make(
+        &mut self,
+        surfaces: Option<&OctreeGeometry>,
+        settings: &OctreeSettings,
+    ) -> std::result::Result<Tree, OctreeError> {
+        let surfaces = surfaces.filter(|_| self.way == OctreeWay::Geometry);
+        let (tree, times) = match (self.way, surfaces) {
+            (OctreeWay::Dynamic(_), _) => {
+                let octree = DynamicOctree::new(&self.spheres, settings)?;
+                let times = octree.times();
+                (Tree::Kept(octree.into()), times)
+            }
+            (_, Some(surfaces)) => {
+                let built = LinklessOctree::build_for(&self.spheres, surfaces, settings)?;
+                (Tree::Built(built.octree), built.times)
+            }
+            (_, None) => {
+                let built = LinklessOctree::build(&self.spheres, settings)?;
+                (Tree::Built(built.octree), built.times)
+            }
+        };
+        self.lacking = Dirty::All;
+        self.done = Done { rebuilds: 1, tables_hashed: tree.tables().table_count(), times };
+        Ok(tree)
+    }
+
+    /// The octree that was kept, over the spheres.
+    fn edit(&mut self, mut octree: Box<DynamicOctree>) -> std::result::Result<Tree, OctreeError> {
+        let report = octree.update(&self.spheres)?;
+        let (rebuilds, tables_hashed) = match report.anew {
+            true => (1, octree.octree().table_count()),
+            false => (0, report.rebuilt as u64),
+        };
+        self.done = Done { rebuilds, tables_hashed, times: octree.times() };
+        // What the last frame lacks and has not got is lost: all of it serves, too.
+        self.lacking = if self.lacking.is_empty() { report.dirty } else { Dirty::All };
+        Ok(Tree::Kept(octree))
     }
 
     /// How far from the frame's origin a corner of the box around what lights reach is at most, metres.
@@ -116,7 +191,7 @@ impl HostOctree {
 
     /// The octree of the frame at hand.
     pub fn octree(&self) -> Option<&LinklessOctree> {
-        self.standing.as_ref().map(|standing| &standing.octree)
+        self.standing.as_ref().map(|standing| standing.tree.tables())
     }
 
     /// Entries of its tables.
@@ -125,16 +200,30 @@ impl HostOctree {
     }
 
     /// Writes what the device has not, for the frame in `slot`.
-    fn stage(&self, slot: usize) {
-        let Some(octree) = self.octree().filter(|_| !self.there) else { return };
+    fn stage(&mut self, slot: usize) {
+        let sizes = self.sizes();
+        let bytes = |table: Table| table.lacking_bytes(&self.lacking, &sizes);
+        self.uploaded = Table::ALL.into_iter().map(bytes).sum();
+        let Some(octree) = self.standing.as_ref().map(|standing| standing.tree.tables()) else { return };
         for (table, buffer) in Table::ALL.into_iter().zip(&self.staging[slot]) {
+            let parts = table.parts_of(&self.lacking);
             match table {
-                Table::Nodes => buffer.write(0, &octree.structure),
-                Table::Leaves => buffer.write(0, &octree.leaves),
-                Table::Offsets => buffer.write(0, &octree.offsets),
-                Table::Indices => buffer.write(0, &octree.indices),
+                Table::Nodes => write_parts(buffer, &octree.structure, parts),
+                Table::Leaves => write_parts(buffer, &octree.leaves, parts),
+                Table::Offsets => write_parts(buffer, &octree.offsets, parts),
+                Table::Indices => write_parts(buffer, &octree.indices, parts),
             }
         }
+    }
+
+    /// Notes that the frame was submitted: the device will have the tables.
+    pub fn submitted(&mut self) {
+        self.lacking = Dirty::default();
+    }
+
+    /// Notes that the device's buffers were made anew: they hold nothing.
+    pub fn lost(&mut self) {
+        self.lacking = Dirty::All;
     }
 
     /// What the frame in `slot` is recorded from.
@@ -142,16 +231,49 @@ impl HostOctree {
         OctreeTables {
             staging: &self.staging[slot],
             sizes: self.sizes(),
-            wanted: !self.there && self.octree().is_some(),
-            times: self.times,
+            lacking: &self.lacking,
+            times: self.done.times,
         }
+    }
+
+    /// How the octree was built in `frame`, the frame at hand; `None` where it was not.
+    pub fn build(&self, frame: u32) -> Option<OctreeBuild> {
+        let octree = self.octree().filter(|_| self.done.rebuilds > 0)?;
+        let (lights, nodes) = (self.spheres.len() as u64, octree.nodes());
+        Some(OctreeBuild { frame, lights, nodes, times: self.done.times })
     }
 
     /// What is told of the frame at hand.
     pub fn counts(&self) -> Option<OctreeCounts> {
-        let octree = self.octree()?;
-        let tables = if self.rebuilds > 0 { hashed::told_tables(octree) } else { vec![] };
-        Some(OctreeCounts { rebuilds: self.rebuilds, sizes: self.sizes(), tables })
+        let standing = self.standing.as_ref()?;
+        let Done { rebuilds, tables_hashed, .. } = self.done;
+        let tables = if rebuilds > 0 { hashed::told_tables(standing.tree.tables()) } else { vec![] };
+        let extra_indices = match &standing.tree {
+            Tree::Built(_) => 0,
+            Tree::Kept(octree) => octree.extra_indices(),
+        };
+        let (sizes, uploaded) = (self.sizes(), self.uploaded);
+        Some(OctreeCounts { rebuilds, tables_hashed, uploaded, extra_indices, sizes, tables })
+    }
+}
+
+impl Standing {
+    /// The octree where it may be edited for `frame`, with deepest nodes of `node` metres: one that is kept, but what a frame shows
+    /// is a function of the frames before it alone, so that one that comes again begins anew.
+    fn kept(self, frame: u32, slack: f64, node: f64) -> Option<Box<DynamicOctree>> {
+        let Tree::Kept(octree) = self.tree else { return None };
+        let serves = self.frame < frame && self.of.slack == slack && octree.octree().frame.node == node;
+        serves.then_some(octree)
+    }
+}
+
+/// Writes parts of values to their places in a buffer, or all of them.
+fn write_parts<T: Pod>(buffer: &Buffer, values: &[T], parts: Option<&[Range<usize>]>) {
+    match parts {
+        None => buffer.write(0, values),
+        Some(parts) => parts.iter().for_each(|part| {
+            buffer.write((part.start * size_of::<T>()) as u64, &values[part.clone()]);
+        }),
     }
 }
 
@@ -167,12 +289,12 @@ impl Engine {
         let (origin, reach) = (plan.origin(), session.scene.reach);
         let eyes = plan.views.iter().map(|view| view.eye().distance(origin)).fold(reach, f64::max);
         let by = (session.surfaces.as_ref(), &session.context.limits);
-        octree.update(lights, (origin, reach + eyes), by).map_err(|error| {
+        octree.update((plan.frame, lights), (origin, reach + eyes), by).map_err(|error| {
             Error::input(format!("method {} at frame {}: {error}", self.method, plan.frame))
         })?;
         let sizes = octree.sizes();
         self.make_room(session, sizes, plan.frame)?;
-        let Some(octree) = &self.octree else { return Ok(()) };
+        let Some(octree) = &mut self.octree else { return Ok(()) };
         octree.stage(slot);
         if let Some(standing) = octree.octree() {
             let data = hashed::data(standing, origin);
@@ -181,8 +303,10 @@ impl Engine {
         Ok(())
     }
 
-    /// Grows tables that are too small, before the frame. What is there at first is as large as the first octree.
+    /// Grows tables that are too small, before the frame. What is there at first is as large as the first octree, or, of one that is
+    /// kept, a little larger.
     fn make_room(&mut self, session: &Session, mut needed: OctreeSizes, frame: u32) -> Result<()> {
+        let kept = self.octree.as_ref().is_some_and(|octree| matches!(octree.way, OctreeWay::Dynamic(_)));
         let mut room = self.sizes.capacities.octree;
         let mut most = self.sizes.most(&session.context.limits).octree;
         let mut grown = vec![];
@@ -191,7 +315,8 @@ impl Engine {
         {
             if *needed > *room {
                 let from = *room;
-                *room = if from == 0 { *needed } else { with_margin(*needed, *most) };
+                // What is kept grows.
+                *room = if from == 0 && !kept { *needed } else { with_margin(*needed, *most) };
                 grown.push(GrowthEvent { frame, clustering: 0, buffer: buffer.to_owned(), from, to: *room });
             }
         }

@@ -4,13 +4,13 @@
 //! beta = mean - mode: many small lights, few large ones, none cut off. Enhuber says nothing of colours: tints are
 //! uniform in 0.5..1, as those of rain. He assumes that lights may move at will, but states no motion of those he
 //! measures, and the lists of his world grid are the same at two times of a recording: so they stand still, or
-//! bounce in the box, which is this program's own motion.
+//! bounce in the box, all of them or every so many-th, which is this program's own motion.
 //!
 //! A radius R is where the light's influence ends: R1 = R. The cut-off I0 is that of the lighting, and the intensity
 //! I = I0 R^2 is what falls to it at R, so that all lights look alike at the same part of their radius. Light k
 //! depends on the seed alone, and has the same bits on every machine.
 
-use super::motion::{BOUNCE_SPEED, Bounce, LightMotion};
+use super::motion::{BOUNCE_SPEED, Bounce, LightMotion, moves};
 use super::place::Corners;
 use super::random::{generator, normal, uniform, uniform_vector};
 use super::{FrameLights, Light, LightSource, Lighting, reserve};
@@ -94,6 +94,8 @@ pub struct GammaRecipe {
     pub radii: GammaRadii,
     /// How the lights move.
     pub motion: LightMotion,
+    /// Which part of them does, from 0 to 1.
+    pub moving: f64,
 }
 
 /// N lights with gamma-distributed radii.
@@ -126,6 +128,7 @@ fn make(recipe: &GammaRecipe, lighting: &Lighting, within: &Corners, light: u32)
     let tint = uniform_vector(&mut random, [TINT[0]; 3], [TINT[1]; 3]);
     let velocity = uniform_vector(&mut random, [-BOUNCE_SPEED; 3], [BOUNCE_SPEED; 3]);
     let r1 = recipe.radii.sample(&mut random);
+    let velocity = if moves(light, recipe.moving) { velocity } else { [0.0; 3] };
     (Bounce { start, velocity }, lighting.light_of_radius(start, tint, r1 as f32))
 }
 

@@ -71,7 +71,7 @@ pub struct Generated {
     pub source: GeneratorKind,
     /// The seed of all random choices.
     pub seed: u64,
-    /// How they move: `fall`, `static` or `bounce`.
+    /// How they move: `fall`, `static` or `bounce`, behind which stands the part that does where it is not all.
     pub motion: String,
     /// The boxes that they are in.
     pub boxes: Vec<GeneratedBox>,
@@ -229,12 +229,13 @@ impl Generator {
         let plain = |corners| vec![GeneratedBox { corners, turn: None, lattice: None }];
         match self {
             Self::Rain => Ok(of("fall", plain(around.corners(LightBox::Rain)))),
-            Self::Gamma(place, GammaRecipe { radii, motion, .. }) => {
+            Self::Gamma(place, GammaRecipe { radii, motion, moving, .. }) => {
                 let motion = match motion {
-                    LightMotion::Static => "static",
-                    LightMotion::Bounce => "bounce",
+                    LightMotion::Static => "static".to_owned(),
+                    LightMotion::Bounce if *moving < 1.0 => format!("bounce {moving}"),
+                    LightMotion::Bounce => "bounce".to_owned(),
                 };
-                Ok(Generated { radii: Some(*radii), ..of(motion, plain(around.corners(*place))) })
+                Ok(Generated { radii: Some(*radii), ..of(&motion, plain(around.corners(*place))) })
             }
             Self::Volume(place, recipe) => {
                 let boxes = around.volumes(*place, recipe, lighting.count)?.into_iter().map(|volume| {
@@ -253,7 +254,7 @@ mod tests {
 
     fn gamma(place: LightBox) -> Generator {
         let (radii, motion) = (GammaRadii::default(), LightMotion::Static);
-        Generator::Gamma(place, GammaRecipe { seed: 4, radii, motion })
+        Generator::Gamma(place, GammaRecipe { seed: 4, radii, motion, moving: 1.0 })
     }
 
     fn volume(place: LightBox, volumes: &[&str]) -> Generator {
@@ -298,8 +299,12 @@ mod tests {
             assert_eq!(moved, told.motion != "static", "{told:?}");
             assert_eq!(told.source, generator.kind());
         }
-        let told =
-            volume(LightBox::Scene, &[]).generated(&lighting, SpotShare::default(), &around()).unwrap();
+        let none = SpotShare::default();
+        let few =
+            GammaRecipe { seed: 4, radii: GammaRadii::default(), motion: LightMotion::Bounce, moving: 0.25 };
+        let told = Generator::Gamma(LightBox::Scene, few).generated(&lighting, none, &around()).unwrap();
+        assert_eq!(told.motion, "bounce 0.25");
+        let told = volume(LightBox::Scene, &[]).generated(&lighting, none, &around()).unwrap();
         assert_eq!(told.boxes[0].to_string(), "0,0,0,4,2,4:4x2x4");
     }
 

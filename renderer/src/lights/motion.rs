@@ -19,6 +19,12 @@ pub enum LightMotion {
 /// Greatest speed of a bouncing light along each axis, m/s.
 pub(super) const BOUNCE_SPEED: f32 = 1.0;
 
+/// Whether light `light` is one of those that move where this part of them does: they are spread evenly among the others.
+pub(super) fn moves(light: u32, part: f64) -> bool {
+    let among = |count: f64| (count * part).floor();
+    among(f64::from(light) + 1.0) > among(f64::from(light))
+}
+
 /// A light that bounces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bounce {
@@ -64,6 +70,14 @@ mod tests {
         assert_eq!(bounce.at(3.0, &ROOM), [3.0, 0.0, 6.0]);
         assert_eq!(bounce.at(4.0, &ROOM), [2.0, 0.0, 5.5]);
         assert_eq!(bounce.at(8.0, &ROOM), [0.0, 0.0, 5.5]);
+    }
+
+    #[test]
+    fn a_part_of_the_lights_moves_spread_evenly() {
+        for (part, moving) in [(1.0, 100), (0.25, 25), (0.01, 1), (0.0, 0)] {
+            assert_eq!((0..100).filter(|light| moves(*light, part)).count(), moving, "{part}");
+        }
+        assert!((0..100).filter(|light| moves(*light, 0.25)).eq((3..100).step_by(4)));
     }
 
     proptest! {

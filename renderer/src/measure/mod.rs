@@ -16,7 +16,7 @@ pub use counters::{DeviceCounts, OCTAVE_PARTS};
 pub use extremes::Extremes;
 pub use lists::ClusterLists;
 pub use memory::{Purpose, StructureMemory};
-pub use octree::{OctreeCounts, OctreeTable, TableKind};
+pub use octree::{BuildPhase, OctreeBuild, OctreeCounts, OctreeTable, TableKind};
 pub use record::{ClusterRecord, ClusteringCounts, FrameCounts, FrameTimes, StageTime, ViewPixels};
 pub use timing::{Disturbance, Order, Precision, Timing};
 pub use trace::{FrameTrace, StageSpan};

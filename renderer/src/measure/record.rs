@@ -166,6 +166,21 @@ impl FrameCounts {
         self.sum(|clustering| clustering.octree.as_ref().map_or(0, |octree| octree.rebuilds))
     }
 
+    /// How many tables of its octree the frame hashed.
+    pub fn octree_tables_hashed(&self) -> u64 {
+        self.sum(|clustering| clustering.octree.as_ref().map_or(0, |octree| octree.tables_hashed))
+    }
+
+    /// What the frame took to the device of its octree, bytes.
+    pub fn octree_bytes_uploaded(&self) -> u64 {
+        self.sum(|clustering| clustering.octree.as_ref().map_or(0, |octree| octree.uploaded))
+    }
+
+    /// Light indices of lights that do not reach all cells of their leaf.
+    pub fn octree_extra_indices(&self) -> u64 {
+        self.sum(|clustering| clustering.octree.as_ref().map_or(0, |octree| octree.extra_indices))
+    }
+
     /// What the tables of its octree take, bytes.
     pub fn octree_bytes(&self) -> u64 {
         self.sum(|clustering| clustering.octree.as_ref().map_or(0, |octree| octree.sizes.bytes()))

@@ -28,7 +28,20 @@ pub(super) struct Ball {
     side: u32,
 }
 
+/// Branches, and full leaves, of a large ball's octree at least, as parts of its radius squared. Of nodes of two cells along an axis
+/// those are branches whose nearest cell is met and whose farthest is not: a shell as thick as a cell seen along the radius, 1.5 on
+/// average, so that a sphere has 4 pi 1.5 / 8 = 2.4 of them, and nodes of four and eight cells add 1.1.
+const BRANCHES: f64 = 3.0;
+
+/// Radius, in cells, from which on balls are large.
+const LARGE: f64 = 16.0;
+
 impl Ball {
+    /// How many branches its octree has at least, and how many full leaves.
+    pub fn least_branches(&self) -> f64 {
+        if self.reach < LARGE { 0.0 } else { BRANCHES * self.reach * self.reach }
+    }
+
     /// The ball of a light, grown by what f64 rounds of places in the octree.
     pub fn new(light: &Sphere, frame: &OctreeFrame) -> Self {
         let slack = f64::from(frame.side()) * 2.0_f64.powi(-50);

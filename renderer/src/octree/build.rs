@@ -51,6 +51,17 @@ pub struct BuildTimes {
 }
 
 impl BuildTimes {
+    /// Names of the steps, in order.
+    pub const STEPS: [&str; 5] =
+        ["empty_octree", "light_octrees", "add_lights", "merge_nodes", "hash_layers"];
+
+    /// Each step with its seconds, in order.
+    pub fn steps(&self) -> [(&'static str, f64); 5] {
+        let Self { empty, lights, adding, merging, linkless } = *self;
+        let seconds = [empty, lights, adding, merging, linkless];
+        std::array::from_fn(|step| (Self::STEPS[step], seconds[step]))
+    }
+
     /// All steps together, seconds.
     pub fn total(&self) -> f64 {
         self.empty + self.lights + self.adding + self.merging + self.linkless
@@ -96,7 +107,7 @@ fn build(
 }
 
 /// What `work` returns; its seconds are added to a step's.
-fn timed<T>(seconds: &mut f64, work: impl FnOnce() -> T) -> T {
+pub(super) fn timed<T>(seconds: &mut f64, work: impl FnOnce() -> T) -> T {
     let start = Instant::now();
     let done = work();
     *seconds += start.elapsed().as_secs_f64();
@@ -114,7 +125,7 @@ fn scene_tree(
     let most = if settings.share_runs { MOST_UNSHARED } else { settings.limits.indices };
     let tree = match settings.route {
         Route::TopDown => {
-            let trees = timed(&mut times.lights, || light_trees(lights, frame))?;
+            let trees = timed(&mut times.lights, || light_trees(lights, frame, most))?;
             timed(&mut times.adding, || top_down::join(&trees, most))
         }
         Route::BottomUp => {
@@ -127,8 +138,23 @@ fn scene_tree(
     Ok(tree)
 }
 
-/// The octree of each light.
-pub(super) fn light_trees(lights: &[Sphere], frame: &OctreeFrame) -> Result<Vec<LightTree>, OctreeError> {
+/// The octree of each light, where the leaves of the scene's may have `most` light indices.
+///
+/// # Errors
+/// They are too large, which is told of many before they are made.
+pub(super) fn light_trees(
+    lights: &[Sphere],
+    frame: &OctreeFrame,
+    most: usize,
+) -> Result<Vec<LightTree>, OctreeError> {
+    let least: f64 = lights.iter().map(|light| Ball::new(light, frame).least_branches()).sum();
+    if least > MOST_BRANCHES as f64 {
+        return Err(OctreeError::LargeLights { node: frame.node, most: MOST_BRANCHES });
+    }
+    // Each full leaf of a light's octree is at least one of the scene's.
+    if least > most as f64 {
+        return Err(OctreeError::TooManyIndices { node: frame.node, most });
+    }
     let budget = BranchBudget::new(MOST_BRANCHES);
     let tree = |light| LightTree::new(&Ball::new(light, frame), frame.depth, &budget);
     let trees: Option<Vec<LightTree>> = lights.par_iter().map(tree).collect();

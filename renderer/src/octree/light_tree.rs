@@ -79,6 +79,13 @@ impl LightTree {
     /// Of a light that fills nothing.
     pub const EMPTY: Self = Self { root: Reach::None, branches: Vec::new() };
 
+    /// Branches, and leaves that the light fills.
+    #[cfg(test)]
+    fn branches_and_leaves(&self) -> [usize; 2] {
+        let leaves = self.branches.iter().map(|branch| branch.full.count_ones() as usize).sum();
+        [self.branches.len(), leaves]
+    }
+
     /// What the light fills of the root.
     pub fn root(&self) -> Reach {
         self.root
@@ -125,4 +132,33 @@ fn branch(
         }
     }
     made
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::frame::OctreeFrame;
+    use super::super::settings::{OctreeSettings, Sphere};
+    use super::*;
+    use glam::DVec3;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        /// What is told of large lights before their octrees are made is true, and not much less than what they take.
+        #[test]
+        fn large_lights_have_as_many_branches_and_leaves_as_is_told(
+            radius in 16.0..60.0f64, centre in [0.0..1.0f64, 0.0..1.0f64, 0.0..1.0f64],
+        ) {
+            let light = Sphere { centre: DVec3::from_array(centre), radius };
+            let around = [light, Sphere { centre: DVec3::splat(0.5), radius: 64.0 }];
+            let frame = OctreeFrame::around(&around, &OctreeSettings::new(1.0, 0)).unwrap();
+            let ball = Ball::new(&light, &frame);
+            let tree = LightTree::new(&ball, frame.depth, &BranchBudget::new(1 << 20)).unwrap();
+            let [branches, leaves] = tree.branches_and_leaves().map(|count| count as f64);
+            let told = ball.least_branches();
+            prop_assert!(told <= branches.min(leaves), "{told} {branches} {leaves}");
+            prop_assert!(branches < 1.5 * told, "{told} {branches}");
+        }
+    }
 }

@@ -48,6 +48,17 @@ impl TableMemory {
 }
 
 impl LinklessOctree {
+    /// How many tables there are.
+    pub fn table_count(&self) -> u64 {
+        self.layers.iter().map(|layer| 1 + u64::from(layer.data.is_some())).sum()
+    }
+
+    /// How many nodes all tables hold.
+    pub fn nodes(&self) -> u64 {
+        let tables = self.layers.iter().flat_map(|layer| [Some(layer.structure), layer.data]);
+        tables.flatten().map(|table| u64::from(table.keys)).sum()
+    }
+
     /// What each layer's tables take, without the light indices.
     pub fn memory(&self) -> Vec<LayerMemory> {
         let layers = self.layers.iter().zip(self.frame.start_depth..);

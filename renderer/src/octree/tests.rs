@@ -114,7 +114,7 @@ fn a_million_lookups_are_those_of_the_tree() {
     let lights = crowd(40, size);
     let settings = OctreeSettings::new(0.3, 3);
     let octree = built(&lights, &settings);
-    let trees = build::light_trees(&lights, &octree.frame).unwrap();
+    let trees = build::light_trees(&lights, &octree.frame, usize::MAX).unwrap();
     let tree = top_down::join(&trees, usize::MAX).unwrap();
     let mut random = Pcg32::new(3, 4);
     let mut part = || f64::from(random.next_u32()) / f64::from(u32::MAX);

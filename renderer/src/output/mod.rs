@@ -48,8 +48,8 @@ pub use preview::write_png;
 pub use preview::{heat_preview, image_preview, light_preview, write_previews};
 pub use rows::FrameRow;
 pub(crate) use rows::{
-    ClusteringRow, FRAGMENTS_PER_CLUSTER, HistogramRow, LIGHTS_PER_CLUSTER, MemoryRow, OctreeRow, Row,
-    TimingRow,
+    ClusteringRow, FRAGMENTS_PER_CLUSTER, HistogramRow, LIGHTS_PER_CLUSTER, MemoryRow, OctreeBuildRow,
+    OctreeRow, Row, TimingRow,
 };
 pub use run::{PlannedRun, RunWriter, planned_runs, write_summary};
 pub use run_times::{ColumnTimes, MeasuredTimes, saved_samples, saved_times};

@@ -1,7 +1,7 @@
 //! The rows of a run's CSV tables, each declared once: header, writer and readers follow from the type.
 
 use super::stages::{self, StageMinima};
-use crate::measure::{FrameCounts, OctreeTable, StructureMemory};
+use crate::measure::{BuildPhase, FrameCounts, OctreeBuild, OctreeTable, StructureMemory};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -79,7 +79,8 @@ macro_rules! frame_row {
         row! {
             /// A frame: the counters of the atemporal run, and GPU milliseconds, of each stage the minimum over the
             /// temporal runs; `None` where nothing was timed.
-            "frames.csv" FrameRow added fragments_hidden lights_dropped depth_discontinuity octree_rebuilds octree_bytes {
+            "frames.csv" FrameRow added fragments_hidden lights_dropped depth_discontinuity octree_rebuilds octree_bytes
+                octree_tables_hashed octree_bytes_uploaded octree_extra_indices {
                 /// Frame number in the recording.
                 frame: u32,
                 /// Its time in the recording, seconds.
@@ -165,6 +166,15 @@ frame_row! {
         /// What the octree's tables take, bytes.
         #[serde(default)]
         octree_bytes: u64 = FrameCounts::octree_bytes;
+        /// Tables of the octree that the frame hashed: all where it built one.
+        #[serde(default)]
+        octree_tables_hashed: u64 = FrameCounts::octree_tables_hashed;
+        /// What the frame took to the device of it, bytes.
+        #[serde(default)]
+        octree_bytes_uploaded: u64 = FrameCounts::octree_bytes_uploaded;
+        /// Light indices of lights that do not reach all of their leaf, in octrees that are kept.
+        #[serde(default)]
+        octree_extra_indices: u64 = FrameCounts::octree_extra_indices;
     }
     times {
         /// The whole frame.
@@ -311,6 +321,40 @@ impl OctreeRow {
             offset_bytes: table.memory.offset_bytes,
             light_indices: table.light_indices,
         }
+    }
+}
+
+row! {
+    /// One step of building an octree beside the timed frames.
+    "octree_builds.csv" OctreeBuildRow {
+        /// When: the name of a [`BuildPhase`].
+        phase: String,
+        /// Frame number in the recording.
+        frame: u32,
+        /// Which step: one of [`BuildTimes::STEPS`](crate::octree::BuildTimes::STEPS).
+        step: String,
+        /// What it took the host, milliseconds.
+        #[serde(serialize_with = "cell::ms")]
+        cpu_ms: f64,
+        /// Lights of the frame.
+        lights: u64,
+        /// Nodes that the tables hold.
+        nodes: u64,
+    }
+}
+
+impl OctreeBuildRow {
+    /// The rows of a build, step by step.
+    pub fn of(phase: BuildPhase, build: &OctreeBuild) -> impl Iterator<Item = Self> {
+        let OctreeBuild { frame, lights, nodes, times } = *build;
+        times.steps().into_iter().map(move |(step, seconds)| Self {
+            phase: phase.to_string(),
+            frame,
+            step: step.into(),
+            cpu_ms: 1e3 * seconds,
+            lights,
+            nodes,
+        })
     }
 }
 

@@ -4,13 +4,15 @@ use super::atomic::{StagedDirectory, write_whole};
 use super::image_exr::write_exr;
 use super::manifest::{MANIFEST, Manifest};
 use super::preview::{write_png, write_previews};
-use super::rows::{MemoryRow, Row};
+use super::rows::{MemoryRow, OctreeBuildRow, Row};
 use super::stages::StageMinima;
 use super::summary::Summary;
 use super::{tables, trace};
 use crate::config::{Assign, Config, ExrLayout, Labels, Test, run_name};
 use crate::lights::LightsFrom;
-use crate::measure::{FrameCounts, FrameTimes, FrameTrace, StructureMemory, ViewPixels};
+use crate::measure::{
+    BuildPhase, FrameCounts, FrameTimes, FrameTrace, OctreeBuild, StructureMemory, ViewPixels,
+};
 use crate::methods::Method;
 use crate::{Error, Result};
 use image::RgbImage;
@@ -119,6 +121,19 @@ impl RunWriter {
     /// The file cannot be written.
     pub fn write_memory(&self, memory: &[StructureMemory]) -> Result<()> {
         self.write_table(memory.iter().map(MemoryRow::new))
+    }
+
+    /// Writes `octree_builds.csv`, unless there is nothing to write: most methods have no octree.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_builds(&self, builds: &[(BuildPhase, OctreeBuild)]) -> Result<()> {
+        match builds.is_empty() {
+            true => Ok(()),
+            false => {
+                self.write_table(builds.iter().flat_map(|(phase, build)| OctreeBuildRow::of(*phase, build)))
+            }
+        }
     }
 
     /// Writes the tables that hold counts alone. What they need of `counts` and [`Self::finish`] does not, the records of

@@ -14,7 +14,7 @@ pub use compute::{DepthImage, Dispatch, Size};
 pub use declared::Declared;
 pub use recorder::{Faults, FrameTracker, Recorder, ScopeSpan, ScopeTime, Timed, Timestamps};
 pub use scope_tree::{ScopeId, ScopeName, ScopeTree};
-pub use transfer::BufferCopy;
+pub use transfer::{BufferCopy, BufferParts};
 
 #[cfg(test)]
 mod tests {

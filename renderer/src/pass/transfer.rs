@@ -3,6 +3,7 @@
 use super::{Access, Recorder, Use};
 use crate::vk::Buffer;
 use ash::vk;
+use std::ops::Range;
 
 /// A copy from the start of one buffer to somewhere in another.
 #[derive(Clone, Copy)]
@@ -15,6 +16,19 @@ pub struct BufferCopy<'a> {
     pub offset: u64,
     /// How much is copied, bytes.
     pub size: u64,
+}
+
+/// Parts of one buffer that are copied to the same places of another.
+#[derive(Clone, Copy)]
+pub struct BufferParts<'a> {
+    /// Buffer that is copied from.
+    pub from: &'a Buffer,
+    /// Buffer that is copied to.
+    pub to: &'a Buffer,
+    /// Which elements are copied.
+    pub parts: &'a [Range<usize>],
+    /// What an element takes, bytes.
+    pub element: u64,
 }
 
 impl Recorder<'_> {
@@ -30,6 +44,18 @@ impl Recorder<'_> {
         self.access([Access::buffer(from, Use::TransferRead), Access::buffer(to, Use::TransferWrite)]);
         let region = vk::BufferCopy::default().dst_offset(copy.offset).size(copy.size);
         unsafe { self.context.device.cmd_copy_buffer(self.commands(), from, to, &[region]) };
+    }
+
+    /// Copies parts of a buffer, some at least.
+    pub fn copy_parts(&mut self, copy: &BufferParts) {
+        let (from, to) = (copy.from.handle, copy.to.handle);
+        self.access([Access::buffer(from, Use::TransferRead), Access::buffer(to, Use::TransferWrite)]);
+        let region = |part: &Range<usize>| {
+            let (offset, size) = (copy.element * part.start as u64, copy.element * part.len() as u64);
+            vk::BufferCopy::default().src_offset(offset).dst_offset(offset).size(size)
+        };
+        let regions: Vec<vk::BufferCopy> = copy.parts.iter().map(region).collect();
+        unsafe { self.context.device.cmd_copy_buffer(self.commands(), from, to, &regions) };
     }
 
     /// Copies a part of a colour image, so large, to the start of a buffer.

@@ -1,4 +1,5 @@
-//! Stage `octree`: the tables of the octree over the lights, built by the host, to the device; where it has those of this frame, nothing.
+//! Stage `octree`: the tables of the octree over the lights, built by the host, to the device, or those parts of them that the host has
+//! edited; where the device has those of this frame, nothing.
 //!
 //! `octree > empty_octree, light_octrees, add_lights, merge_nodes, hash_layers` tell how long the host built, in the order in which it
 //! did (Tegelaers section 7.2), `upload` is the device's.
@@ -8,9 +9,10 @@ use super::inputs::Frame;
 use crate::buffers::BufferName as B;
 use crate::clustering::ClusteringBuffers;
 use crate::measure::OctreeSizes;
-use crate::octree::BuildTimes;
-use crate::pass::{BufferCopy, Recorder};
+use crate::octree::{BuildTimes, Dirty};
+use crate::pass::{BufferCopy, BufferParts, Recorder};
 use crate::vk::Buffer;
+use std::ops::Range;
 
 /// The tables of an octree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,15 +41,42 @@ impl Table {
         }
     }
 
-    /// What it takes with so many entries.
+    /// What an entry takes, bytes.
+    fn entry_bytes(self) -> u64 {
+        match self {
+            Self::Nodes => OctreeSizes::NODE_BYTES,
+            Self::Leaves => OctreeSizes::LEAF_BYTES,
+            Self::Offsets => OctreeSizes::OFFSET_BYTES,
+            Self::Indices => OctreeSizes::INDEX_BYTES,
+        }
+    }
+
+    /// Which of its entries are lacking; `None` of all of them.
+    pub fn parts_of(self, lacking: &Dirty) -> Option<&[Range<usize>]> {
+        let Dirty::Parts { structure, leaves, offsets, indices } = lacking else { return None };
+        Some(match self {
+            Self::Nodes => structure,
+            Self::Leaves => leaves,
+            Self::Offsets => offsets,
+            Self::Indices => indices,
+        })
+    }
+
+    /// What it takes to bring the device what is lacking of a table of these sizes, bytes.
+    pub fn lacking_bytes(self, lacking: &Dirty, sizes: &OctreeSizes) -> u64 {
+        let of_parts = |parts: &[Range<usize>]| parts.iter().map(|part| part.len() as u64).sum::<u64>();
+        self.parts_of(lacking).map_or(self.bytes(sizes), |parts| of_parts(parts) * self.entry_bytes())
+    }
+
+    /// What it takes with so many entries, bytes.
     pub fn bytes(self, sizes: &OctreeSizes) -> u64 {
-        let (entries, bytes) = match self {
-            Self::Nodes => (sizes.nodes, OctreeSizes::NODE_BYTES),
-            Self::Leaves => (sizes.leaves, OctreeSizes::LEAF_BYTES),
-            Self::Offsets => (sizes.offsets, OctreeSizes::OFFSET_BYTES),
-            Self::Indices => (sizes.indices, OctreeSizes::INDEX_BYTES),
+        let entries = match self {
+            Self::Nodes => sizes.nodes,
+            Self::Leaves => sizes.leaves,
+            Self::Offsets => sizes.offsets,
+            Self::Indices => sizes.indices,
         };
-        u64::from(entries) * bytes
+        u64::from(entries) * self.entry_bytes()
     }
 }
 
@@ -57,28 +86,19 @@ pub struct OctreeTables<'a> {
     pub staging: &'a [Buffer; Table::ALL.len()],
     /// How many entries they have.
     pub sizes: OctreeSizes,
-    /// Whether the device has those of another frame.
-    pub wanted: bool,
-    /// How long the host took to build it for this frame.
+    /// What of them the device has not.
+    pub lacking: &'a Dirty,
+    /// How long the host took to build or edit it for this frame.
     pub times: BuildTimes,
 }
 
-/// Tells how long the host built, and copies the tables unless the device has them.
+/// Tells how long the host built, and copies what the device has not of the tables.
 pub fn record(r: &mut Recorder, frame: &Frame) -> LightLists {
     let Some(tables) = &frame.octree else { return LightLists::NONE };
     r.scope("octree", |r| {
-        let BuildTimes { empty, lights, adding, merging, linkless } = tables.times;
-        for (step, seconds) in [
-            ("empty_octree", empty),
-            ("light_octrees", lights),
-            ("add_lights", adding),
-            ("merge_nodes", merging),
-            ("hash_layers", linkless),
-        ] {
-            r.host_step(step, seconds);
-        }
+        tables.times.steps().into_iter().for_each(|(step, seconds)| r.host_step(step, seconds));
         r.scope("upload", |r| {
-            if tables.wanted {
+            if !tables.lacking.is_empty() {
                 frame.clusterings.iter().for_each(|this| upload(r, tables, &this.buffers));
             }
         });
@@ -88,9 +108,11 @@ pub fn record(r: &mut Recorder, frame: &Frame) -> LightLists {
 
 fn upload(r: &mut Recorder, tables: &OctreeTables, to: &ClusteringBuffers) {
     for (table, from) in Table::ALL.into_iter().zip(tables.staging) {
-        let size = table.bytes(&tables.sizes);
-        if size > 0 {
-            r.copy(&BufferCopy { from, to: &to[table.buffer()], offset: 0, size });
+        let (to, size, element) = (&to[table.buffer()], table.bytes(&tables.sizes), table.entry_bytes());
+        match table.parts_of(tables.lacking) {
+            None if size > 0 => r.copy(&BufferCopy { from, to, offset: 0, size }),
+            Some(parts) if !parts.is_empty() => r.copy_parts(&BufferParts { from, to, parts, element }),
+            _ => {}
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::engine::{Engine, FramePlan, LargestGrid, Mode, Session, count_frame, 
 use crate::inputs::Inputs;
 use crate::lights::{LightSource, LightTally};
 use crate::machine::Conditions;
-use crate::measure::{Extremes, FrameCounts, ViewPixels};
+use crate::measure::{BuildPhase, Extremes, FrameCounts, ViewPixels};
 use crate::output::PlannedRun;
 use crate::{Result, still};
 use std::sync::Arc;
@@ -82,6 +82,7 @@ pub fn prepare(inputs: &Inputs, session: &mut Session, run: &PlannedRun) -> Resu
         assigner: choose::assigner(inputs, session, (run, &plans))?,
         capacities: run.config.capacities(),
         memory: vec![],
+        builds: vec![],
         growth: vec![],
         extremes: None,
         device: session.context.info.clone(),
@@ -107,6 +108,8 @@ fn count_frames(
     for plan in plans.iter() {
         watch.check()?;
         result.counts.push(counting.frame(plan)?);
+        let built = counting.engine.octree_build(plan.frame);
+        result.builds.extend(built.map(|built| (BuildPhase::Counted, built)));
         watch.step();
     }
     if run.config.exr == ExrFrames::Discontinuity {

@@ -27,8 +27,8 @@ use crate::engine::plan_frames;
 use crate::inputs::Inputs;
 use crate::machine::Conditions;
 use crate::measure::{
-    Capacities, ClusterLists, Extremes, FrameCounts, FrameTimes, FrameTrace, GrowthEvent, StructureMemory,
-    Timing, ViewPixels,
+    BuildPhase, Capacities, ClusterLists, Extremes, FrameCounts, FrameTimes, FrameTrace, GrowthEvent,
+    OctreeBuild, StructureMemory, Timing, ViewPixels,
 };
 use crate::output::PlannedRun;
 use crate::recording::Recording;
@@ -101,6 +101,8 @@ pub struct RunResult {
     pub capacities: Capacities,
     /// What each structure took on the device, and what frames needed of that.
     pub memory: Vec<StructureMemory>,
+    /// Octrees that were built beside the timed frames, and when.
+    pub builds: Vec<(BuildPhase, OctreeBuild)>,
     /// Frames that made them grow.
     pub growth: Vec<GrowthEvent>,
     /// The frames of its pictures, where these are the ones of least and of most depth discontinuity.

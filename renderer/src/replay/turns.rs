@@ -18,7 +18,7 @@ use crate::engine::{Engine, FramePlan, Session, nothing};
 use crate::inputs::Inputs;
 use crate::lights::LightSource;
 use crate::machine::Conditions;
-use crate::measure::{Disturbance, FrameTimes, Precision, Timing};
+use crate::measure::{BuildPhase, Disturbance, FrameTimes, OctreeBuild, Precision, Timing};
 use crate::output::PlannedRun;
 use crate::{Error, Result};
 use std::sync::Arc;
@@ -143,6 +143,8 @@ struct Timed<'s> {
     plans: Arc<[FramePlan]>,
     engine: Engine,
     lights: Box<dyn LightSource>,
+    /// The octree that the frame that warms up built.
+    built: Option<OctreeBuild>,
     tracer: Tracer<'s>,
     /// By their numbers.
     runs: Vec<Vec<FrameTimes>>,
@@ -164,12 +166,14 @@ impl<'s> Timed<'s> {
         let first = (&plans[0], lights.at_frame(plans[0].frame));
         engine.render(session, WARM_UP_SLOT, first, (&mut nothing, &mut nothing))?;
         session.context.check_validation()?;
+        let built = engine.octree_build(plans[0].frame);
         let stages = session.frame_slots[WARM_UP_SLOT].timestamps.spans().len();
         let frames = plans.iter().map(|plan| plan.frame);
         Ok(Self {
             tracer: Tracer::new(&run.config.trace, frames, run.config.most_runs(), stages),
             seat,
             plans,
+            built,
             engine,
             lights,
             runs: vec![],
@@ -237,6 +241,7 @@ impl<'s> Timed<'s> {
         result.traces = self.tracer.finish(&self.engine.tree, &session.context.limits);
         result.capacities = self.engine.capacities();
         result.memory = self.engine.memory(&result.counts);
+        result.builds.extend(self.built.map(|built| (BuildPhase::WarmUp, built)));
         result.growth.append(&mut self.engine.growth);
         result.conditions = std::mem::take(&mut self.conditions);
         result.duration += self.spent;

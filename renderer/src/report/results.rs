@@ -138,7 +138,8 @@ pub struct Run {
 pub struct BuiltOctree {
     /// Its tables by depth.
     pub tables: Vec<OctreeRow>,
-    /// What the host took for each step of building, in order, milliseconds: the least over all frames that were timed and built one.
+    /// What the host took for each step of building, in order, milliseconds: the least over all builds, in frames that were timed or beside
+    /// them.
     pub steps: Vec<(String, f64)>,
 }
 

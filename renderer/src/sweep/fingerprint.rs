@@ -88,6 +88,7 @@ mod tests {
             Config { light_seed: Some(2), ..gamma.clone() },
             Config { light_box: Some(LightBox::Rain), ..gamma.clone() },
             Config { light_motion: Some(LightMotion::Bounce), ..gamma.clone() },
+            Config { light_motion: Some(LightMotion::Bounce), light_moving: Some(0.5), ..gamma.clone() },
             Config { light_radius_mode: Some(0.5), ..gamma.clone() },
             Config { light_source: GeneratorKind::Volume, ..base.clone() },
         ];

@@ -138,6 +138,7 @@ impl RunSink for Files<'_> {
         }
         notes_of_lists(run, &result).for_each(|note| self.audience.note(&note));
         self.noted(writer.write_memory(&result.memory))?;
+        self.noted(writer.write_builds(&result.builds))?;
         let finished = writer.finish(&manifest, &result.counts, &result.times);
         self.noted(finished)?;
         self.timing = result.timing;

@@ -2,8 +2,9 @@
 
 use manylight::assign::Marking;
 use manylight::config::{Config, FrameRange};
-use manylight::lights::{GeneratorKind, Lighting};
-use manylight::measure::FrameTimes;
+use manylight::lights::{GeneratorKind, LightMotion, Lighting};
+use manylight::measure::{FrameCounts, FrameTimes};
+use manylight::octree::BuildTimes;
 use manylight_tests::{Run, assert_equal_the_truth, manylight, methods, run, three_frames};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -22,9 +23,6 @@ fn rebuilds(run: &Run) -> Vec<u64> {
     run.counts.iter().map(|counts| counts.octree_rebuilds()).collect()
 }
 
-/// The steps of building an octree, each a stage.
-const STEPS: [&str; 5] = ["empty_octree", "light_octrees", "add_lights", "merge_nodes", "hash_layers"];
-
 /// CPU milliseconds of the steps of building, and GPU milliseconds of the upload, of a frame.
 fn building(frame: &FrameTimes) -> [f64; 2] {
     let stage = |name: &str| {
@@ -32,7 +30,7 @@ fn building(frame: &FrameTimes) -> [f64; 2] {
         let found = frame.stages.iter().find(|stage| stage.stage == path);
         found.unwrap_or_else(|| panic!("{path} is no stage of {:?}", frame.stages))
     };
-    [STEPS.iter().map(|step| stage(step).cpu_ms).sum(), stage("upload").gpu_ms]
+    [BuildTimes::STEPS.iter().map(|step| stage(step).cpu_ms).sum(), stage("upload").gpu_ms]
 }
 
 #[test]
@@ -70,6 +68,39 @@ fn lights_that_move_have_an_octree_of_their_own_in_each_frame() {
 /// The rows of a table, by column.
 fn rows(path: &Path) -> Vec<BTreeMap<String, String>> {
     csv::Reader::from_path(path).unwrap().deserialize().collect::<Result<_, _>>().unwrap()
+}
+
+/// Checks that tables are as large as their sides say, of depths that follow each other from that at which lookups begin, 2.
+fn sides_and_depths_fit(tables: &[BTreeMap<String, String>]) {
+    let mut depths: BTreeMap<&str, Vec<u64>> = BTreeMap::new();
+    for row in tables {
+        let number = |column: &str| row[column].parse::<u64>().unwrap();
+        let slot = if row["table"] == "data" { 8 } else { 2 };
+        assert_eq!(number("slot_side").pow(3) * slot, number("slot_bytes"), "{row:?}");
+        assert_eq!(number("offset_side").pow(3) * 4, number("offset_bytes"), "{row:?}");
+        assert!((1..=number("slot_side").pow(3)).contains(&number("keys")), "{row:?}");
+        depths.entry(&row["table"]).or_default().push(number("depth"));
+    }
+    let (structure, data) = (&depths["structure"], &depths["data"]);
+    assert!(structure.iter().copied().eq((2..).take(structure.len())), "{depths:?}");
+    assert!(
+        data.is_sorted() && data.last() == structure.last().map(|depth| depth + 1).as_ref(),
+        "{depths:?}"
+    );
+}
+
+/// Checks the rows of the builds of a run with static lights: one in the first frame that is counted, one before the first timed.
+fn builds_are_told(builds: &[BTreeMap<String, String>], tables: &[BTreeMap<String, String>]) {
+    let told = |column: &str| builds.iter().map(|row| row[column].as_str()).collect::<Vec<_>>();
+    assert_eq!(told("phase"), [["counted"; 5], ["warm-up"; 5]].concat());
+    assert_eq!(told("step"), [BuildTimes::STEPS; 2].concat());
+    let nodes: u64 = tables.iter().map(|row| row["keys"].parse::<u64>().unwrap()).sum();
+    for row in builds {
+        let columns = ["frame", "lights", "nodes"].map(|column| row[column].clone());
+        assert_eq!(columns, ["100".to_owned(), "200".to_owned(), nodes.to_string()]);
+    }
+    let took = |row: &&BTreeMap<String, String>| row["cpu_ms"].parse::<f64>().unwrap() > 0.0;
+    assert!(builds.iter().all(|row| took(&row)), "{builds:?}");
 }
 
 #[test]
@@ -110,6 +141,7 @@ fn tables_tell_what_an_octree_takes() {
         ["structure", "data"].map(|t| sum(t, "offset_bytes")),
         ["structure", "data"].map(|t| sum(t, "slot_bytes")),
     );
+    sides_and_depths_fit(&tables);
     let indices = sum("data", "light_indices");
     let told: u64 = offsets.iter().sum::<u64>() + slots.iter().sum::<u64>() + 4 * indices;
     let frames = rows(&run.join("frames.csv"));
@@ -117,6 +149,7 @@ fn tables_tell_what_an_octree_takes() {
     assert_eq!(of_frames("octree_rebuilds"), ["1", "0", "0"]);
     assert_eq!(of_frames("octree_bytes"), [told.to_string(), told.to_string(), told.to_string()]);
     assert_eq!(of_frames("visible_clusters")[0], sum("data", "keys").to_string());
+    builds_are_told(&rows(&run.join("octree_builds.csv")), &tables);
     let memory = rows(&run.join("memory.csv"));
     let held = |name: &str| memory.iter().find(|row| row["structure"] == name).unwrap()["allocated"].clone();
     assert_eq!(held("octree_nodes"), slots[0].to_string());
@@ -146,6 +179,65 @@ fn every_way_makes_octrees_with_the_same_lists() {
     assert!(trimmed * 4 < rebuilt * 3, "most of the hall is air: {trimmed}, {rebuilt}");
     assert_eq!(told(&runs[4]).0, told(&runs[1]).0, "surfaces have the same lists");
     assert_ne!(runs[1].lists[0].indices, runs[2].lists[0].indices, "leaves lie in other slots");
+}
+
+/// Lights that bounce in the hall: a part of them.
+fn bouncing(part: f64, names: &[&str]) -> Config {
+    Config {
+        light_source: GeneratorKind::Gamma,
+        light_motion: Some(LightMotion::Bounce),
+        light_moving: Some(part),
+        light_radius_mode: Some(1.9),
+        light_radius_mean: Some(2.0),
+        lights: vec![Lighting::with_count(60)],
+        frames: FrameRange { first: 100, end: Some(161), step: 12 },
+        resolution: [48, 32],
+        octree: ["rebuild", "dynamic-1", "dynamic-2"].map(|way| way.parse().unwrap()).to_vec(),
+        runs: 2.into(),
+        ..hall(names)
+    }
+}
+
+/// Checks a run whose octree is kept against one that builds its own for each frame.
+fn keeps_its_octree(kept: &Run, rebuilt: &Run) {
+    let each = |run: &Run, of: fn(&FrameCounts) -> u64| run.counts.iter().map(of).collect::<Vec<_>>();
+    let name = &kept.planned.name;
+    assert_eq!(rebuilds(kept), [1, 0, 0, 0, 0, 0], "{name}");
+    let needed = |frame: &FrameCounts| frame.counters.needed_computations;
+    assert_eq!(each(kept, needed), each(rebuilt, needed), "{name}");
+    let [hashed, all] = [kept, rebuilt].map(|run| each(run, FrameCounts::octree_tables_hashed));
+    assert!(
+        hashed[0] == all[0] && hashed[1..].iter().zip(&all[1..]).all(|(some, all)| some <= all),
+        "{name}"
+    );
+    let [uploaded, bytes] =
+        [FrameCounts::octree_bytes_uploaded, FrameCounts::octree_bytes].map(|of| each(kept, of));
+    assert!(uploaded[0] == bytes[0] && uploaded[1..].iter().all(|bytes| *bytes > 0), "{name}: {uploaded:?}");
+    for frame in kept.times.iter().filter(|frame| frame.frame > 100) {
+        let [cpu, gpu] = building(frame);
+        assert!(cpu > 0.0 && gpu > 0.0, "{name}: {frame:?}");
+    }
+}
+
+#[test]
+fn octrees_that_are_kept_follow_their_lights() {
+    let names = ["all-lights", "hashed-0.5m-2"];
+    let few = run(bouncing(0.1, &names));
+    let many = run(bouncing(1.0, &names));
+    for runs in [&few, &many] {
+        assert_equal_the_truth(runs, Marking::Depth);
+        assert_eq!(rebuilds(&runs[1]), [1; 6]);
+        runs[2..].iter().for_each(|kept| keeps_its_octree(kept, &runs[1]));
+    }
+    let sum = |run: &Run, of: fn(&FrameCounts) -> u64| run.counts[1..].iter().map(of).sum::<u64>();
+    let hashed =
+        [&few[2], &few[3], &many[2], &many[3]].map(|run| sum(run, FrameCounts::octree_tables_hashed));
+    assert!(hashed[1] < hashed[0] && hashed[3] < hashed[2], "more slots spare hashing: {hashed:?}");
+    let [of_few, of_all] = [&few[3], &few[1]].map(|run| sum(run, FrameCounts::octree_bytes_uploaded));
+    assert!(of_few * 3 < of_all, "what stays stays on the device: {of_few}, {of_all}");
+    assert!(sum(&few[3], FrameCounts::octree_extra_indices) > 0, "lights that leave a part of a leaf stay");
+    let again = run(bouncing(0.1, &names));
+    assert!(few.iter().zip(&again).all(|(one, other)| one.counts == other.counts), "counts repeat");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Stills: the onlooker changes nothing, sees the grid where it is, and draws what it is asked for.
 
 use glam::{DVec2, DVec3};
+use image::{Rgb, RgbImage};
 use manylight::config::{Config, ExrFrames, FrameRange};
 use manylight::engine::{FramePlan, plan_frames};
 use manylight::inputs::Inputs;
@@ -130,6 +131,32 @@ fn frusta_reach_their_corners_and_lights_tint_the_picture() {
     let changed = lights.image.pixels().zip(plain.image.pixels()).filter(|(a, b)| a != b).count();
     assert!(changed > 500, "{changed}");
     assert_eq!(lights.pixels.depth, plain.pixels.depth, "what is drawn over a picture has no depth");
+}
+
+/// How many entries a picture of hash tables has of a colour. Its margin, 4 entries wide, tells how large entries are.
+fn entries_of(table: &RgbImage, color: Rgb<u8>) -> u64 {
+    let margin =
+        (0..table.width()).take_while(|x| *table.get_pixel(*x, table.height() / 3) == *table.get_pixel(0, 0));
+    let scale = margin.count() as u64 / 4;
+    assert!(scale > 0, "there is a margin");
+    table.pixels().filter(|pixel| **pixel == color).count() as u64 / (scale * scale)
+}
+
+#[test]
+fn an_octree_is_shown_by_its_leaves_and_by_its_tables() {
+    let config = Config { lights: vec![Lighting::with_count(10)], ..config("bistro-vive", "hashed-2-2") };
+    let inputs = Inputs::load(&config).unwrap();
+    let shown = |items: &[Item]| still(&config, &inputs, Some("birdseye"), items);
+    let [plain, lines, tables] = [&[][..], &[Item::Octree], &[Item::Hash]].map(shown);
+    assert!(plain.counts == lines.counts && plain.counts == tables.counts, "looking changes nothing");
+    let drawn = plain.image.pixels().zip(lines.image.pixels()).filter(|(a, b)| a != b).count();
+    assert!(drawn > 100, "edges of leaves are drawn: {drawn}");
+    assert!(plain.image == tables.image && plain.tables.is_empty() && lines.tables.is_empty());
+    let depths: Vec<u32> = tables.tables.iter().map(|table| table.depth).collect();
+    assert!(!depths.is_empty() && depths.iter().copied().eq((2..).take(depths.len())), "{depths:?}");
+    let leaf = Rgb([86, 180, 233]);
+    let leaves: u64 = tables.tables.iter().map(|table| entries_of(&table.image, leaf)).sum();
+    assert_eq!(leaves, tables.counts.visible_clusters());
 }
 
 #[test]

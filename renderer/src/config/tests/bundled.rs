@@ -110,6 +110,18 @@ fn bundled_evaluations_are_the_steps_of_enhuber() {
 }
 
 #[test]
+fn the_bundled_sweep_of_moving_lights_has_every_slack_beside_octrees_that_are_rebuilt() {
+    let file = repository("configs/tegelaers-dynamic.json");
+    let parts = crate::sweep::parts(&Config::resolve(Some(&file), Layer::default()).unwrap()).unwrap();
+    let ways = ["rebuild", "dynamic-1.1", "dynamic-1.25", "dynamic-1.5", "dynamic-2", "dynamic-3"];
+    for part in &parts {
+        let found = part.runs.iter().map(|run| run.config.octree[0].to_string());
+        assert!(found.eq(ways), "{}", part.config.scene);
+    }
+    assert_eq!(parts.len(), 2, "scenes");
+}
+
+#[test]
 fn bundled_sweeps_of_tegelaers_have_his_sets_and_resolutions() {
     // Of three scenes, the sides of the squares; of each, the runs of all.
     for (file, sides, runs) in [("tegelaers", 7, 1356), ("tegelaers-ci", 3, 278), ("tegelaers-many", 1, 126)]

@@ -53,8 +53,12 @@ fn a_generator_is_replaced_with_all_that_was_said_to_it() {
         other => panic!("{other}"),
     };
     let gamma = r#"{"light_source": "gamma", "light_seed": 9, "light_radius_mean": 2, "light_box": "rain"}"#;
-    let recipe =
-        GammaRecipe { seed: 9, radii: GammaRadii { mode: 0.25, mean: 2.0 }, motion: LightMotion::Static };
+    let recipe = GammaRecipe {
+        seed: 9,
+        radii: GammaRadii { mode: 0.25, mean: 2.0 },
+        motion: LightMotion::Static,
+        moving: 1.0,
+    };
     assert_eq!(generator(&[gamma]), Generator::Gamma(LightBox::Rain, recipe));
     let seeded = GammaRecipe { seed: 3, ..recipe };
     assert_eq!(generator(&[gamma, r#"{"light_seed": 3}"#]), Generator::Gamma(LightBox::Rain, seeded));
@@ -98,6 +102,7 @@ fn a_resolved_configuration_is_a_configuration_file_again() {
             light_seed: Some(u64::MAX),
             light_box: Some("-1,0,-1,1,0.1,1".parse().unwrap()),
             light_motion: Some(LightMotion::Bounce),
+            light_moving: Some(0.25),
             light_radius_mode: Some(0.1),
             light_radius_mean: Some(0.3),
             ..Config::default()

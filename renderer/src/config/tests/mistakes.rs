@@ -119,6 +119,14 @@ fn mistakes_in_files_are_named_with_line_column_and_nearest_name() {
             "light_motion: lights by volume have none: leave it out, or set light_source to gamma",
         ),
         (
+            "{\"light_source\": \"gamma\", \"light_moving\": 0.5}",
+            "light_moving: static lights do not move: leave it out, or set light_motion to bounce",
+        ),
+        (
+            "{\"light_source\": \"gamma\", \"light_motion\": \"bounce\", \"light_moving\": 1.5}",
+            "light_moving: 1.5 is no part of the lights: give 0 to 1",
+        ),
+        (
             "{\"light_source\": \"gamma\", \"light_radius_mean\": 0.2}",
             "lights: a most frequent radius of 0.25 m: it is at least 0 and below the mean radius, 0.2 m",
         ),

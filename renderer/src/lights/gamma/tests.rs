@@ -5,7 +5,7 @@ const DT: f64 = 1.0 / 90.0;
 const ROOM: Corners = Corners { min: [-10.0, 0.0, -5.0], max: [10.0, 6.0, 25.0] };
 
 fn recipe() -> GammaRecipe {
-    GammaRecipe { seed: 1, radii: GammaRadii::default(), motion: LightMotion::Static }
+    GammaRecipe { seed: 1, radii: GammaRadii::default(), motion: LightMotion::Static, moving: 1.0 }
 }
 
 fn lights(recipe: &GammaRecipe, count: u32, frame: u32) -> Vec<Light> {
@@ -134,6 +134,17 @@ fn standing_lights_are_uploaded_once_and_moving_ones_with_every_frame() {
     for (light, first) in later.iter().zip(&first) {
         assert!((light.r1, light.tint) == (first.r1, first.tint) && light.position != first.position);
         assert!(light.position.iter().zip(first.position).all(|(a, b)| (a - b).abs() <= 1.0 + 1e-4));
+    }
+}
+
+#[test]
+fn a_part_of_the_lights_moves_and_the_others_are_as_they_were() {
+    let all = GammaRecipe { motion: LightMotion::Bounce, ..recipe() };
+    let few = GammaRecipe { moving: 0.1, ..all };
+    let [first, of_all, of_few] = [lights(&all, 50, 0), lights(&all, 50, 90), lights(&few, 50, 90)];
+    for (light, here) in of_few.iter().enumerate() {
+        let expected = if light % 10 == 9 { &of_all } else { &first };
+        assert_eq!(*here, expected[light], "{light}");
     }
 }
 

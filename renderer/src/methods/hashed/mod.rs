@@ -90,6 +90,11 @@ fn smallest_radius(lights: &[Light]) -> f64 {
     radii.min_by(f64::total_cmp).unwrap_or(1.0)
 }
 
+/// How far the light reaches that reaches farthest, metres; 0 without any.
+pub fn largest_radius(lights: &[Light]) -> f64 {
+    lights.iter().map(|light| f64::from(light.r1)).fold(0.0, f64::max)
+}
+
 /// What lights reach, with `slack` metres to cover what rounding moves a fragment by; the place of a light among them is its own.
 pub fn reaches(lights: &[Light], slack: f64) -> impl Iterator<Item = Sphere> + '_ {
     lights.iter().map(Light::bounding_sphere).map(move |(centre, radius)| Sphere {

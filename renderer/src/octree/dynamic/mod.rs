@@ -18,10 +18,10 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use super::build::light_trees;
+use super::build::{BuildTimes, light_trees, timed};
 use super::frame::OctreeFrame;
 use super::layers::{self, StoredLayer, kind};
-use super::light_tree::LightTree;
+use super::light_tree::{LightTree, Reach};
 use super::linkless::{LinklessOctree, child_bits};
 use super::settings::{OctreeError, OctreeSettings, Sphere};
 use super::top_down;
@@ -45,6 +45,7 @@ pub struct DynamicOctree {
     layers: Vec<LayerTables>,
     runs: Runs,
     octree: LinklessOctree,
+    times: BuildTimes,
 }
 
 /// The tables of a layer.
@@ -61,18 +62,31 @@ impl DynamicOctree {
     /// As [`LinklessOctree::build`].
     pub fn new(lights: &[Sphere], settings: &OctreeSettings) -> Result<Self, OctreeError> {
         let settings = OctreeSettings { share_runs: false, ..*settings };
-        let frame = OctreeFrame::around(lights, &settings)?;
-        let trees = light_trees(lights, &frame)?;
+        let mut times = BuildTimes::default();
+        let frame = timed(&mut times.empty, || OctreeFrame::around(lights, &settings))?;
         let most = settings.limits.indices;
+        let trees = timed(&mut times.lights, || light_trees(lights, &frame, most))?;
         let error = OctreeError::TooManyIndices { node: settings.node, most };
-        let mut tree = top_down::join(&trees, most).ok_or(error)?;
-        tree.merge();
-        let (stored, indices) = layers::stored(&tree, &frame, &settings)?;
-        tree.split(frame.start_depth);
-        let octree = layers::assemble(frame, &stored, indices, &settings)?;
-        let layers = stored.into_iter().map(LayerTables::new).collect();
+        let mut tree = timed(&mut times.adding, || top_down::join(&trees, most)).ok_or(error)?;
+        timed(&mut times.merging, || tree.merge());
+        let (octree, layers) = timed(&mut times.linkless, || tables(&mut tree, frame, &settings))?;
         let (lights, extras, runs) = (lights.to_vec(), BTreeSet::new(), Runs::default());
-        Ok(Self { settings, lights, trees, tree, extras, layers, runs, octree })
+        Ok(Self { settings, lights, trees, tree, extras, layers, runs, octree, times })
+    }
+
+    /// How long each step of the last update took, or of building where that was as a whole. In others merging is part of adding.
+    pub fn times(&self) -> BuildTimes {
+        self.times
+    }
+
+    /// How many light indices leaves have of lights that do not reach all of their cells.
+    pub fn extra_indices(&self) -> u64 {
+        let of_leaf = |place: &Place| {
+            let lights = self.tree.find(*place).and_then(Node::lights).unwrap_or(&[]);
+            lights.iter().filter(|light| self.trees[**light as usize].at(*place) != Reach::Full).count()
+                as u64
+        };
+        self.extras.iter().map(of_leaf).sum()
     }
 
     /// The octree as the device has it once what the last report says is uploaded.
@@ -86,7 +100,8 @@ impl DynamicOctree {
     /// # Errors
     /// As [`LinklessOctree::build`]. The octree may no longer be used then.
     pub fn update(&mut self, lights: &[Sphere]) -> Result<UpdateReport, OctreeError> {
-        OctreeFrame::around(lights, &self.settings)?;
+        let mut times = BuildTimes::default();
+        timed(&mut times.empty, || OctreeFrame::around(lights, &self.settings))?;
         let common = lights.len().min(self.lights.len());
         let changed: Vec<usize> = (0..lights.len().max(self.lights.len()))
             .filter(|&light| light >= common || lights[light] != self.lights[light])
@@ -94,13 +109,19 @@ impl DynamicOctree {
         if lights.iter().any(|light| !self.octree.frame.holds(light)) {
             return self.rebuild(lights, changed.len());
         }
-        let touched = self.edit(lights, &changed)?;
-        let mut report = UpdateReport { changed: changed.len(), ..UpdateReport::default() };
-        self.write(touched, &mut report)?;
+        let extras = self.extras.len();
+        let mut report = UpdateReport { changed: changed.len(), extras, ..UpdateReport::default() };
+        if changed.is_empty() {
+            self.times = times;
+            return Ok(report);
+        }
+        let touched = self.edit(lights, &changed, &mut times)?;
+        timed(&mut times.linkless, || self.write(touched, &mut report))?;
         if self.octree.indices.len() > self.settings.limits.indices {
             return self.rebuild(lights, changed.len());
         }
         report.extras = self.extras.len();
+        self.times = times;
         Ok(report)
     }
 
@@ -108,15 +129,20 @@ impl DynamicOctree {
     fn rebuild(&mut self, lights: &[Sphere], changed: usize) -> Result<UpdateReport, OctreeError> {
         *self = Self::new(lights, &self.settings)?;
         let rebuilt = 2 * self.layers.len();
-        Ok(UpdateReport { changed, rebuilt, dirty: Dirty::All, ..UpdateReport::default() })
+        Ok(UpdateReport { changed, anew: true, rebuilt, dirty: Dirty::All, ..UpdateReport::default() })
     }
 
     /// Edits the scene's octree by the lights that changed; the nodes that are no longer as the tables have them.
-    fn edit(&mut self, lights: &[Sphere], changed: &[usize]) -> Result<BTreeSet<Place>, OctreeError> {
+    fn edit(
+        &mut self,
+        lights: &[Sphere],
+        changed: &[usize],
+        times: &mut BuildTimes,
+    ) -> Result<BTreeSet<Place>, OctreeError> {
         let frame = &self.octree.frame;
         let present: Vec<usize> = changed.iter().copied().filter(|light| *light < lights.len()).collect();
         let spheres: Vec<Sphere> = present.iter().map(|light| lights[*light]).collect();
-        let new = light_trees(&spheres, frame)?;
+        let new = timed(&mut times.lights, || light_trees(&spheres, frame, self.settings.limits.indices))?;
         // A light that is not there fills nothing.
         let most = lights.len().max(self.lights.len());
         self.trees.resize(most, LightTree::EMPTY);
@@ -128,9 +154,11 @@ impl DynamicOctree {
             old.push(std::mem::replace(&mut self.trees[*light], tree));
         }
         let mut editor = Editor::new(frame.start_depth, &self.trees, &mut self.extras);
-        for (light, old) in changed.iter().zip(&old) {
-            editor.edit(&mut self.tree, Place::ROOT, &Change::of(*light, old, &self.trees[*light]));
-        }
+        timed(&mut times.adding, || {
+            for (light, old) in changed.iter().zip(&old) {
+                editor.edit(&mut self.tree, Place::ROOT, &Change::of(*light, old, &self.trees[*light]));
+            }
+        });
         let touched = editor.into_touched();
         self.trees.truncate(lights.len());
         self.lights = lights.to_vec();
@@ -210,4 +238,16 @@ impl DynamicOctree {
         let indices = self.runs.take_writes();
         report.dirty = Dirty::ranges([structure, leaves, offsets], indices);
     }
+}
+
+/// The tables of a merged tree, which is split down to where lookups begin then.
+fn tables(
+    tree: &mut Node,
+    frame: OctreeFrame,
+    settings: &OctreeSettings,
+) -> Result<(LinklessOctree, Vec<LayerTables>), OctreeError> {
+    let (stored, indices) = layers::stored(tree, &frame, settings)?;
+    tree.split(frame.start_depth);
+    let octree = layers::assemble(frame, &stored, indices, settings)?;
+    Ok((octree, stored.into_iter().map(LayerTables::new).collect()))
 }

@@ -2,8 +2,8 @@
 
 use crate::Result;
 use crate::output::{
-    ClusteringRow, FRAGMENTS_PER_CLUSTER, HistogramRow, LIGHTS_PER_CLUSTER, OctreeRow, Row, TimingRow,
-    each_row, saved_frames, stage_kind,
+    ClusteringRow, FRAGMENTS_PER_CLUSTER, HistogramRow, LIGHTS_PER_CLUSTER, OctreeBuildRow, OctreeRow, Row,
+    TimingRow, each_row, saved_frames, stage_kind,
 };
 use crate::report::bins;
 use crate::report::results::{BuiltOctree, Distribution, FrameGroups, Frames};
@@ -43,19 +43,31 @@ pub fn read_octree(directory: &Path) -> Result<Option<BuiltOctree>> {
         }
         Ok(())
     })?;
+    // Earlier versions did not write it.
+    if directory.join(OctreeBuildRow::FILE).is_file() {
+        each_row(directory, |_, row: OctreeBuildRow| {
+            note_step(&mut built, &row.step, row.cpu_ms);
+            Ok(())
+        })?;
+    }
     each_row(directory, |_, row: TimingRow| {
         let kind = stage_kind(&row.stage);
         let step = kind.strip_prefix(BUILDING).filter(|step| !step.starts_with(UPLOAD));
         // In frames that build none, no step takes time.
         if let Some(step) = step.filter(|_| row.cpu_ms > 0.0) {
-            match built.steps.iter_mut().find(|(known, _)| known == step) {
-                Some((_, least)) => *least = least.min(row.cpu_ms),
-                None => built.steps.push((step.to_owned(), row.cpu_ms)),
-            }
+            note_step(&mut built, step, row.cpu_ms);
         }
         Ok(())
     })?;
     Ok(Some(built))
+}
+
+/// Keeps the least that a step took.
+fn note_step(built: &mut BuiltOctree, step: &str, ms: f64) {
+    match built.steps.iter_mut().find(|(known, _)| known == step) {
+        Some((_, least)) => *least = least.min(ms),
+        None => built.steps.push((step.to_owned(), ms)),
+    }
 }
 
 /// Groups that have lists by lights, of some frames, ascending.
@@ -99,4 +111,51 @@ pub fn read_histograms(directory: &Path, frames: &[u32]) -> Result<(Distribution
         Ok(())
     })?;
     Ok((found, most))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn the_first_octree_is_read_with_the_least_that_each_step_took() {
+        let run = tempfile::tempdir().unwrap();
+        let write = |file: &str, text: &str| fs::write(run.path().join(file), text).unwrap();
+        assert_eq!(read_octree(run.path()).unwrap(), None, "most methods have none");
+        write(
+            OctreeRow::FILE,
+            "frame,table,depth,keys,slot_side,offset_side,slot_bytes,offset_bytes,light_indices\n\
+             4,structure,2,60,5,3,250,108,0\n4,data,3,300,7,5,2744,500,900\n5,structure,2,61,5,3,250,108,0\n",
+        );
+        write(
+            "timings.csv",
+            "run,frame,stage,gpu_ms,cpu_ms\n\
+             0,4,frame,9.0,9.0\n0,4,frame/octree,8.0,8.0\n0,4,frame/octree/add_lights,0.0,2.5\n0,4,frame/octree/upload,1.0,0.1\n\
+             0,5,frame/octree/add_lights,0.0,2.0\n1,4,frame/octree/add_lights,0.0,0.0\n1,5,frame/octree/hash_layers,0.0,4.0\n",
+        );
+        let octree = read_octree(run.path()).unwrap().unwrap();
+        assert_eq!(octree.steps, [("add_lights".to_owned(), 2.0), ("hash_layers".to_owned(), 4.0)]);
+        let told: Vec<_> =
+            octree.tables.iter().map(|table| (table.frame, &*table.table, table.keys)).collect();
+        assert_eq!(told, [(4, "structure", 60), (4, "data", 300)]);
+        assert_eq!(
+            (octree.tables[1].depth, octree.tables[1].slot_side, octree.tables[1].offset_side),
+            (3, 7, 5)
+        );
+        assert_eq!((octree.tables[1].slot_bytes, octree.tables[1].offset_bytes), (2744, 500));
+        assert_eq!(octree.tables[1].light_indices, 900);
+        // Builds beside timed frames count too.
+        write(
+            OctreeBuildRow::FILE,
+            "phase,frame,step,cpu_ms,lights,nodes\n\
+             counted,4,empty_octree,0.5,20,360\ncounted,4,add_lights,1.5,20,360\nwarm-up,4,add_lights,3.0,20,360\n",
+        );
+        let octree = read_octree(run.path()).unwrap().unwrap();
+        let steps = [("empty_octree", 0.5), ("add_lights", 1.5), ("hash_layers", 4.0)];
+        assert_eq!(octree.steps, steps.map(|(step, ms)| (step.to_owned(), ms)));
+        // What is no such table is refused.
+        write(OctreeBuildRow::FILE, "phase,frame,step,cpu_ms,lights\ncounted,4,add_lights,1.5,20\n");
+        assert!(read_octree(run.path()).unwrap_err().to_string().contains(OctreeBuildRow::FILE));
+    }
 }

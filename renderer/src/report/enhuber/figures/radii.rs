@@ -62,7 +62,7 @@ fn density(radii: &GammaRadii, radius: f64) -> f64 {
 
 /// The share of the made lights in each step, over its length.
 fn counted(radii: GammaRadii) -> Result<Vec<[f64; 2]>> {
-    let recipe = GammaRecipe { seed: 1, radii, motion: LightMotion::Static };
+    let recipe = GammaRecipe { seed: 1, radii, motion: LightMotion::Static, moving: 1.0 };
     let within = Corners { min: [0.0; 3], max: [1.0; 3] };
     let mut lights = GammaLights::new(&recipe, &Lighting::with_count(LIGHTS), within, 0.0)?;
     let mut bins = vec![0_u32; (FARTHEST / BIN) as usize];

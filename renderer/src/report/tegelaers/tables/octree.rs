@@ -1,12 +1,11 @@
 //! What octrees take: the steps of building them, and the memory of their layers.
 
+use crate::octree::BuildTimes;
 use crate::report::results::{BuiltOctree, Run};
 use crate::report::tables::{Row, Table};
 use crate::report::tegelaers::evaluation::{Case, Evaluation, HASHED, Scene, lights, name};
 use crate::report::tegelaers::octree::{TABLES, bytes, construction};
 
-/// The steps of building, as the run names their stages.
-const STEPS: [&str; 5] = ["empty_octree", "light_octrees", "add_lights", "merge_nodes", "hash_layers"];
 /// Bytes in a KiB.
 const KIB: f64 = 1024.0;
 
@@ -87,7 +86,7 @@ fn rows_of(
 fn steps(run: &Run, built: &BuiltOctree) -> Cells {
     let ms = |step: &str| built.steps.iter().find(|(known, _)| known == step).map(|(_, ms)| *ms);
     construction(run)
-        .map(|all| (vec![], STEPS.map(ms).into_iter().chain([Some(all)]).collect()))
+        .map(|all| (vec![], BuildTimes::STEPS.map(ms).into_iter().chain([Some(all)]).collect()))
         .into_iter()
         .collect()
 }
