@@ -15,6 +15,7 @@ use manylight::methods::Method;
 use manylight::output::{PlannedRun, planned_runs};
 use manylight::replay::{RunResult, RunSink, Watch, replay};
 use manylight::selftest::{count_fault, picture_fault};
+use manylight::still::Look;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -116,8 +117,8 @@ pub struct Run {
     pub times: Vec<FrameTimes>,
     /// Pictures of each frame, one a view.
     pub images: Vec<(u32, Vec<ViewPixels>)>,
-    /// Clusters from above, by frame.
-    pub birdseyes: Vec<(u32, RgbImage)>,
+    /// Further looks, by frame.
+    pub looks: Vec<(u32, Look, RgbImage)>,
     /// Lists by frame and clustering.
     pub lists: Vec<ClusterLists>,
     /// What the run says of itself.
@@ -127,7 +128,7 @@ pub struct Run {
 #[derive(Default)]
 struct Collect {
     images: Vec<(u32, Vec<ViewPixels>)>,
-    birdseyes: Vec<(u32, RgbImage)>,
+    looks: Vec<(u32, Look, RgbImage)>,
     lists: Vec<ClusterLists>,
     runs: Vec<Run>,
 }
@@ -142,8 +143,8 @@ impl RunSink for Collect {
         Ok(())
     }
 
-    fn birdseye(&mut self, frame: u32, image: &RgbImage) -> manylight::Result<()> {
-        self.birdseyes.push((frame, image.clone()));
+    fn look(&mut self, frame: u32, look: Look, image: &RgbImage) -> manylight::Result<()> {
+        self.looks.push((frame, look, image.clone()));
         Ok(())
     }
 
@@ -158,7 +159,7 @@ impl RunSink for Collect {
             counts: std::mem::take(&mut result.counts),
             times: std::mem::take(&mut result.times),
             images: std::mem::take(&mut self.images),
-            birdseyes: std::mem::take(&mut self.birdseyes),
+            looks: std::mem::take(&mut self.looks),
             lists: std::mem::take(&mut self.lists),
             result,
         });

@@ -65,11 +65,13 @@ pub fn look_at_frame(
         }
     };
     let extend = (&mut readback::clear_counters as _, &mut look_closer as _);
+    let light_count = lights.list.len() as u32;
     engine.render(session, COUNTING_SLOT, (plan, lights), extend)?;
-    let counts = read_counts(engine, session, plan, (lights.list.len() as u32, time_s), lists)?;
+    let counts = read_counts(engine, session, plan, (light_count, time_s), lists)?;
     let views = images.iter().zip(view_names.unwrap_or_default()).zip(plan.views.iter().enumerate());
     let pixels = views.map(|((buffer, name), (number, view))| ViewPixels {
         dimensions: engine.dimensions(sharing.clustering_of(number)),
+        lights: light_count,
         ..view_pixels(buffer, name, view, resolution)
     });
     Ok(CountedFrame { pixels: pixels.collect(), counts })
@@ -122,6 +124,7 @@ fn view_pixels(buffer: &Buffer, name: &str, view: &View, resolution: [u32; 2]) -
         color: color.into_iter().map(|texel| texel.map(f16::from_bits)).collect(),
         background: shade::BACKGROUND,
         depth: pixels.iter().map(|p| p.distance).collect(),
+        lights: 0,
         light_count: pixels.iter().map(|p| p.light_count).collect(),
         fragment_count: pixels.iter().map(|p| p.fragment_count).collect(),
         cluster_index: pixels.iter().map(|p| p.cluster_index).collect(),

@@ -95,6 +95,8 @@ pub struct ViewPixels {
     pub background: [f32; 3],
     /// Distance along the view's -Z, metres; infinity where nothing was hit.
     pub depth: Vec<f32>,
+    /// How many lights the frame has, wherever they reach.
+    pub lights: u32,
     /// Length of the list of the pixel's cluster; 0 where nothing was hit.
     pub light_count: Vec<u32>,
     /// Fragments in the pixel's cluster; 0 where nothing was hit.

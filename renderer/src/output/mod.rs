@@ -9,7 +9,8 @@
 //!   <run>/                 named by method, and by lighting, way and test where the sweep has several
 //!     run.json             how the run came to be
 //!     frames.csv  clusterings.csv  histograms.csv  memory.csv  timings.csv  trace.json
-//!     frames/NNNNNN.exr  NNNNNN.png  NNNNNN_lights.png  NNNNNN_heat.png  NNNNNN_clusters.png  NNNNNN_birdseye.png
+//!     frames/NNNNNN.exr  NNNNNN.png  NNNNNN_lights.png  NNNNNN_share.png  NNNNNN_heat.png  NNNNNN_clusters.png
+//!            NNNNNN_slices.png  NNNNNN_birdseye.png  NNNNNN_plan.png  NNNNNN_gbuffer.png
 //!   <run>.error.json       why a run failed, until it succeeds
 //! ```
 //!
@@ -45,7 +46,7 @@ pub(crate) use color::{srgb_decode, srgb_encode};
 pub use image_exr::write_exr;
 pub use manifest::{DeviceInfo, MANIFEST, Manifest, RUN_FORMAT, Source, git_revision, rfc3339_utc};
 pub use preview::write_png;
-pub use preview::{heat_preview, image_preview, light_preview, write_previews};
+pub use preview::{heat_preview, image_preview, light_preview, share_preview, write_previews};
 pub use rows::FrameRow;
 pub(crate) use rows::{
     ClusteringRow, FRAGMENTS_PER_CLUSTER, HistogramRow, LIGHTS_PER_CLUSTER, MemoryRow, OctreeBuildRow,

@@ -9,20 +9,16 @@ use image::{ImageFormat, Rgb, RgbImage};
 use std::io;
 use std::path::Path;
 
-/// Writes `stem.png` (tone-mapped), `stem_lights.png` (see [`light_preview`]), `stem_heat.png` (see [`heat_preview`]),
-/// `stem_clusters.png` and, of grids that have several slices, `stem_slices.png`.
+/// Writes `stem.png` (tone-mapped), `stem_lights.png` (see [`light_preview`]), which ends at the frame's own most lights,
+/// `stem_share.png` (see [`share_preview`]), `stem_heat.png` (see [`heat_preview`]), `stem_clusters.png` and, of grids that have several slices, `stem_slices.png`.
 ///
 /// # Errors
 /// A file cannot be written.
-pub fn write_previews(
-    directory: &Path,
-    stem: &str,
-    views: &[ViewPixels],
-    most_lights: Option<u32>,
-) -> Result<()> {
+pub fn write_previews(directory: &Path, stem: &str, views: &[ViewPixels]) -> Result<()> {
     let mut previews = vec![
         ("", image_preview(views)),
-        ("_lights", light_preview(views, most_lights)),
+        ("_lights", light_preview(views, None)),
+        ("_share", share_preview(views)),
         ("_heat", heat_preview(views)),
         ("_clusters", cluster_preview(views, cluster_color)),
     ];
@@ -82,6 +78,12 @@ pub fn light_preview(views: &[ViewPixels], most_lights: Option<u32>) -> RgbImage
     })
 }
 
+/// The lights of each pixel's group as a part of all lights of the frame, which is what a pixel costs relative to computing them
+/// all (Tegelaers), as [`light_preview`] has them: white for all.
+pub fn share_preview(views: &[ViewPixels]) -> RgbImage {
+    light_preview(views, views.iter().map(|view| view.lights).max())
+}
+
 /// Clusters as colour, dark where there is none.
 fn cluster_preview(views: &[ViewPixels], color: fn([u32; 3]) -> [u8; 3]) -> RgbImage {
     side_by_side(views, |view, pixel| match view.cluster_index[pixel] {
@@ -123,6 +125,17 @@ mod tests {
     }
 
     #[test]
+    fn shares_are_of_all_lights_whatever_the_most_of_a_pixel() {
+        let mut pixels = view("mono", 3, 1);
+        (pixels.lights, pixels.light_count) = (100, vec![50, 50, 25]);
+        let image = share_preview(&[pixels.clone()]);
+        let colors: Vec<[u8; 3]> = image.pixels().map(|pixel| pixel.0).collect();
+        assert_eq!(colors, [BACKGROUND, [160, 121, 73], [22, 83, 76]]);
+        pixels.light_count = vec![100; 3];
+        assert_eq!(share_preview(&[pixels]).get_pixel(1, 0).0, [255; 3], "what computes all is white");
+    }
+
+    #[test]
     fn heat_is_half_of_what_is_hit_whatever_the_frame() {
         let mut pixels = view("mono", 4, 1);
         pixels.light_count = vec![900, 0, 150, 151];
@@ -147,7 +160,7 @@ mod tests {
     fn views_stand_side_by_side_and_read_back() {
         let dir = tempfile::tempdir().unwrap();
         let (left, right) = (view("left", 3, 2), view("right", 3, 2));
-        write_previews(dir.path(), "000300", &[left.clone(), right], None).unwrap();
+        write_previews(dir.path(), "000300", &[left.clone(), right]).unwrap();
         let read = |name: &str| image::open(dir.path().join(name)).unwrap().to_rgb8();
         let clusters = read("000300_clusters.png");
         assert_eq!(clusters.dimensions(), (6, 2));
@@ -158,7 +171,7 @@ mod tests {
         assert!(!dir.path().join("000300_slices.png").exists(), "a grid of one slice");
         let [r, g, b, _] = left.color[5].map(|channel| channel.to_f32());
         assert_eq!(read("000300.png").get_pixel(2, 1).0, tone_map([r, g, b]));
-        for other in ["lights", "heat"] {
+        for other in ["lights", "share", "heat"] {
             assert_eq!(read(&format!("000300_{other}.png")).dimensions(), (6, 2));
         }
     }
@@ -167,7 +180,7 @@ mod tests {
     fn slices_are_shown_where_there_are_several() {
         let dir = tempfile::tempdir().unwrap();
         let pixels = ViewPixels { dimensions: [2, 1, 3], ..view("mono", 3, 2) };
-        write_previews(dir.path(), "000007", &[pixels], None).unwrap();
+        write_previews(dir.path(), "000007", &[pixels]).unwrap();
         let slices = image::open(dir.path().join("000007_slices.png")).unwrap().to_rgb8();
         let colors: Vec<[u8; 3]> = slices.pixels().map(|pixel| pixel.0).collect();
         let [red, green] = [[255, 0, 0], [0, 255, 0]];

@@ -87,23 +87,23 @@ impl RunWriter {
         Ok(Self { staged: StagedDirectory::create(&out.join(name), MANIFEST)? })
     }
 
-    /// Writes a frame's `frames/NNNNNN.exr` and its previews, whose heat map ends at the frame's own most lights.
+    /// Writes a frame's `frames/NNNNNN.exr` and its previews.
     ///
     /// # Errors
     /// A file cannot be written.
     pub fn write_images(&self, frame: u32, views: &[ViewPixels], layout: ExrLayout) -> Result<()> {
         let (directory, stem) = (self.staged.path().join("frames"), format!("{frame:06}"));
         write_exr(&directory.join(format!("{stem}.exr")), views, layout)
-            .and_then(|()| write_previews(&directory, &stem, views, None))
+            .and_then(|()| write_previews(&directory, &stem, views))
             .map_err(|error| self.staged.told(error))
     }
 
-    /// Writes a frame's `frames/NNNNNN_birdseye.png`.
+    /// Writes a further picture of a frame, `frames/NNNNNN_<name>.png`.
     ///
     /// # Errors
     /// The file cannot be written.
-    pub fn write_birdseye(&self, frame: u32, image: &RgbImage) -> Result<()> {
-        write_png(&self.staged.path().join("frames").join(format!("{frame:06}_birdseye.png")), image)
+    pub fn write_look(&self, frame: u32, name: &str, image: &RgbImage) -> Result<()> {
+        write_png(&self.staged.path().join("frames").join(format!("{frame:06}_{name}.png")), image)
             .map_err(|error| self.staged.told(error))
     }
 

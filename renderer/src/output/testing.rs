@@ -70,6 +70,7 @@ pub(crate) fn view(name: &str, width: u32, height: u32) -> ViewPixels {
         color: (0..pixels).map(|i| [shade(i, 0.01), shade(i, 0.02), shade(i, 0.03), f16::ONE]).collect(),
         background: [0.0; 3],
         depth: (0..pixels).map(|i| if i == 0 { f32::INFINITY } else { i as f32 * 0.1 }).collect(),
+        lights: pixels * 3,
         light_count: (0..pixels).map(|i| i * 3).collect(),
         fragment_count: (0..pixels).map(|i| i * 7).collect(),
         cluster_index: (0..pixels).map(|i| if i == 0 { u32::MAX } else { i }).collect(),

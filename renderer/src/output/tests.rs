@@ -326,6 +326,7 @@ fn a_run_directory_is_whole_and_repeats_byte_for_byte() {
         "frames/000040_clusters.png",
         "frames/000040_heat.png",
         "frames/000040_lights.png",
+        "frames/000040_share.png",
         "histograms.csv",
         "memory.csv",
         "run.json",

@@ -1,6 +1,7 @@
 //! The atemporal run: it comes first, so that buffers have grown before anything is timed.
 
 use super::{RunResult, RunSink, Watch, choose};
+use crate::Result;
 use crate::assign::Assigner;
 use crate::config::ExrFrames;
 use crate::engine::{Engine, FramePlan, LargestGrid, Mode, Session, count_frame, plan_frames};
@@ -9,7 +10,7 @@ use crate::lights::{LightSource, LightTally};
 use crate::machine::Conditions;
 use crate::measure::{BuildPhase, Extremes, FrameCounts, ViewPixels};
 use crate::output::PlannedRun;
-use crate::{Result, still};
+use crate::still::{self, Look};
 use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 
@@ -163,9 +164,9 @@ impl Counting<'_> {
 
     fn deliver(&mut self, plan: &FramePlan, pixels: &[ViewPixels]) -> Result<()> {
         self.sink.images(plan.frame, pixels)?;
-        if self.run.method.assigns() {
-            let image = still::birdseye(self.inputs, self.session, (self.run, plan))?;
-            self.sink.birdseye(plan.frame, &image)?;
+        for look in Look::of(self.run) {
+            let image = still::look(self.inputs, self.session, (self.run, plan), look)?;
+            self.sink.look(plan.frame, look, &image)?;
         }
         Ok(())
     }

@@ -32,6 +32,7 @@ use crate::measure::{
 };
 use crate::output::PlannedRun;
 use crate::recording::Recording;
+use crate::still::Look;
 use crate::vk::DeviceInfo;
 use crate::{Error, Result};
 use image::RgbImage;
@@ -44,8 +45,8 @@ pub trait RunSink {
     fn begin(&mut self, run: &PlannedRun) -> Result<()>;
     /// Images of one frame of the current run, a view each.
     fn images(&mut self, frame: u32, views: &[ViewPixels]) -> Result<()>;
-    /// The clusters of that frame seen from above; most sinks have no use for them.
-    fn birdseye(&mut self, _frame: u32, _image: &RgbImage) -> Result<()> {
+    /// A further look at that frame; most sinks have no use for it.
+    fn look(&mut self, _frame: u32, _look: Look, _image: &RgbImage) -> Result<()> {
         Ok(())
     }
     /// Light lists of one clustering of one frame of the current run; most sinks have no use for them.

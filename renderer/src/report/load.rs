@@ -165,11 +165,20 @@ fn pictures(directory: &Path) -> Vec<Picture> {
             let image = entry.path();
             let stem = image.file_name()?.to_str()?.strip_suffix(".png")?;
             let frame = stem.parse().ok()?;
-            let [lights, heat, clusters, slices, birdseye] =
-                ["lights", "heat", "clusters", "slices", "birdseye"].map(|shown| {
-                    Some(directory.join(format!("{stem}_{shown}.png"))).filter(|path| path.is_file())
-                });
-            Some(Picture { frame, image, lights, heat, clusters, slices, birdseye })
+            let shown =
+                |name: &str| Some(directory.join(format!("{stem}_{name}.png"))).filter(|path| path.is_file());
+            Some(Picture {
+                frame,
+                lights: shown("lights"),
+                share: shown("share"),
+                heat: shown("heat"),
+                clusters: shown("clusters"),
+                slices: shown("slices"),
+                birdseye: shown("birdseye"),
+                plan: shown("plan"),
+                gbuffer: shown("gbuffer"),
+                image: image.clone(),
+            })
         })
         .collect();
     found.sort_by_key(|picture| picture.frame);

@@ -171,7 +171,7 @@ pub struct Frames {
 }
 
 /// Images of one frame.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Picture {
     /// Frame number.
     pub frame: u32,
@@ -179,6 +179,8 @@ pub struct Picture {
     pub image: PathBuf,
     /// Lights per cluster as colour.
     pub lights: Option<PathBuf>,
+    /// The same as a part of all lights.
+    pub share: Option<PathBuf>,
     /// The same by one scale for all frames, blended with the image.
     pub heat: Option<PathBuf>,
     /// Clusters as colour.
@@ -187,6 +189,10 @@ pub struct Picture {
     pub slices: Option<PathBuf>,
     /// Clusters seen from above, with frusta.
     pub birdseye: Option<PathBuf>,
+    /// Volumes of lights seen from above, with frusta.
+    pub plan: Option<PathBuf>,
+    /// What the G-buffer holds.
+    pub gbuffer: Option<PathBuf>,
 }
 
 impl ResultSet {

@@ -12,16 +12,19 @@
 pub(crate) mod camera;
 mod compose;
 mod hash_tables;
+mod look;
 mod onlooker;
 mod record;
 mod shapes;
 
 pub use camera::{Placed, Viewpoint};
 pub use hash_tables::TablePicture;
+pub use look::Look;
+pub(crate) use look::look;
 
 use crate::config::Config;
 use crate::culling::Culling;
-use crate::engine::{Engine, FramePlan, LargestGrid, Mode, Session, count_frame, plan_frames};
+use crate::engine::{Engine, LargestGrid, Mode, Session, count_frame, plan_frames};
 use crate::inputs::Inputs;
 use crate::lights::LightTally;
 use crate::measure::{FrameCounts, ViewPixels};
@@ -208,22 +211,6 @@ pub fn render(inputs: &Inputs, run: &PlannedRun, viewpoint: Viewpoint, show: &Sh
 /// and a pass of its own.
 fn drawn_plainly(config: &Config) -> Config {
     Config { culling: Culling::Cpu, multiview: false, ..config.clone() }
-}
-
-/// Renders the frame of `plan` once more, apart from its run, and looks at clusters and frusta from above (Gelderen
-/// figure 4.8).
-///
-/// # Errors
-/// Whatever fails on the device.
-pub(crate) fn birdseye(
-    inputs: &Inputs,
-    session: &mut Session,
-    (run, plan): (&PlannedRun, &FramePlan),
-) -> Result<RgbImage> {
-    let config = &drawn_plainly(&run.config);
-    let names: Vec<String> = inputs.recording.view_names().into_iter().map(str::to_owned).collect();
-    let onlooker = Onlooker::birdseye(config, &names, plan);
-    Ok(paint(&onlooker, inputs, session, run)?.image)
 }
 
 fn paint(onlooker: &Onlooker, inputs: &Inputs, session: &mut Session, run: &PlannedRun) -> Result<Still> {

@@ -43,13 +43,7 @@ pub struct Seen {
     pub pixels: ViewPixels,
 }
 
-impl<'a> Onlooker<'a> {
-    /// An onlooker who sees clusters and frusta from above (Gelderen figure 4.8).
-    pub fn birdseye(run: &'a Config, names: &'a [String], plan: &'a FramePlan) -> Self {
-        let show = Show { base: Base::Clusters, frusta: true, ..Show::default() };
-        Self { run, names, plan, camera: Camera::BirdsEye, show }
-    }
-
+impl Onlooker<'_> {
     /// Looks at the frame that `engine`, made for `mode`, counted last; `shaded` are its views.
     ///
     /// # Errors
@@ -181,6 +175,7 @@ impl<'a> Onlooker<'a> {
             color: vec![],
             background: [0.0; 3],
             depth: vec![],
+            lights: 0,
             light_count: vec![],
             fragment_count: vec![],
             cluster_index: vec![],

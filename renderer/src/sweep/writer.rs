@@ -10,6 +10,7 @@ use crate::output::{
     DeviceInfo, Manifest, PlannedRun, RUN_FORMAT, RunWriter, Source, git_revision, rfc3339_utc,
 };
 use crate::replay::{RunResult, RunSink};
+use crate::still::Look;
 use crate::{Error, Result};
 use image::RgbImage;
 
@@ -107,9 +108,9 @@ impl RunSink for Files<'_> {
         self.noted(written)
     }
 
-    fn birdseye(&mut self, frame: u32, image: &RgbImage) -> Result<()> {
+    fn look(&mut self, frame: u32, look: Look, image: &RgbImage) -> Result<()> {
         let writer = self.writer.as_ref().ok_or_else(not_begun)?;
-        let written = writer.write_birdseye(frame, image);
+        let written = writer.write_look(frame, look.name(), image);
         self.noted(written)
     }
 

@@ -30,7 +30,7 @@ fn assert_same(made: &Run, offsets: &Run) {
     assert_eq!(made.counts, offsets.counts, "{name}: counters");
     assert!(made.lists == offsets.lists, "{name}: lists");
     assert!(made.images == offsets.images, "{name}: pictures");
-    assert!(made.birdseyes == offsets.birdseyes, "{name}: from above");
+    assert!(made.looks == offsets.looks, "{name}: from above");
 }
 
 /// Runs of a method with several values on one axis, the first of which is the default's.

@@ -52,7 +52,7 @@ fn write_run(out: &Path, scene: [&str; 2], views: u32, method: &str, lights: u32
     let writer = RunWriter::create(out, &format!("{method}_{lights}")).unwrap();
     for frame in [300, 580] {
         writer.write_images(frame, &[pixels()], ExrLayout::Multipart).unwrap();
-        writer.write_birdseye(frame, &image::RgbImage::new(32, 20)).unwrap();
+        writer.write_look(frame, "birdseye", &image::RgbImage::new(32, 20)).unwrap();
     }
     writer.write_counted(&counts).unwrap();
     writer.write_memory(&memory(lights)).unwrap();
@@ -120,6 +120,7 @@ fn pixels() -> ViewPixels {
             .collect(),
         background: [0.0; 3],
         depth: vec![1.0; pixels],
+        lights: 1000,
         light_count: (0..pixels as u32).collect(),
         fragment_count: vec![1; pixels],
         cluster_index: vec![0; pixels],

@@ -5,10 +5,10 @@ use image::{Rgb, RgbImage};
 use manylight::config::{Config, ExrFrames, FrameRange};
 use manylight::engine::{FramePlan, plan_frames};
 use manylight::inputs::Inputs;
-use manylight::lights::Lighting;
+use manylight::lights::{GeneratorKind, Lighting};
 use manylight::output::planned_runs;
 use manylight::shading::{Shading, ShadingPipeline};
-use manylight::still::{Item, Placed, Show, Still, Viewpoint, render};
+use manylight::still::{Item, Look, Placed, Show, Still, Viewpoint, render};
 use manylight_tests::run;
 
 const FRAME: u32 = 300;
@@ -180,11 +180,28 @@ fn a_replay_sees_from_above_what_a_still_sees_and_counts_as_if_nobody_looked() {
         let replayed = |exr| run(Config { frames, exr: ExrFrames::List(exr), ..alone.clone() }).remove(0);
         let (watched, unwatched) = (replayed(vec![FRAME]), replayed(vec![]));
         assert_eq!(watched.counts, unwatched.counts, "{method}");
-        assert!(unwatched.birdseyes.is_empty());
+        assert!(unwatched.looks.is_empty());
         let inputs = Inputs::load(&alone).unwrap();
         let still = still(&alone, &inputs, Some("birdseye"), &[Item::Clusters, Item::Frusta]);
-        assert_eq!(watched.birdseyes, [(FRAME, still.image)], "{method}");
+        assert_eq!(watched.looks, [(FRAME, Look::Birdseye, still.image)], "{method}");
     }
+}
+
+#[test]
+fn brute_force_looks_at_volumes_of_lights_and_at_its_gbuffer() {
+    let config = Config {
+        light_source: GeneratorKind::Volume,
+        pipeline: vec![ShadingPipeline::Deferred],
+        exr: ExrFrames::List(vec![FRAME]),
+        ..config("bistro", "all-lights")
+    };
+    let inputs = Inputs::load(&config).unwrap();
+    let watched = run(config.clone()).remove(0);
+    let alone = Config { exr: ExrFrames::List(vec![]), ..config };
+    let plan = still(&alone, &inputs, Some("birdseye"), &[Item::Frusta, Item::Lights]);
+    let gbuffer = still(&alone, &inputs, None, &[Item::Gbuffer]);
+    let looks = [(FRAME, Look::Plan, plan.image), (FRAME, Look::Gbuffer, gbuffer.image)];
+    assert!(watched.looks == looks, "{:?}", watched.looks.iter().map(|look| look.1).collect::<Vec<_>>());
 }
 
 #[test]

@@ -206,15 +206,7 @@ mod tests {
             let image = directory.join(format!("{frame}_heat.png"));
             write_png(&image, &RgbImage::from_pixel(32, 18, image::Rgb([1, 2, 3]))).unwrap();
             let heat = Some(image.clone());
-            run.pictures.push(Picture {
-                frame,
-                image,
-                lights: None,
-                heat,
-                clusters: None,
-                slices: None,
-                birdseye: None,
-            });
+            run.pictures.push(Picture { frame, image, heat, ..Picture::default() });
             run.groups.push(FrameGroups {
                 frame,
                 clusterings: vec![vec![(0, 8000 - 40), (30, 40)], vec![(30, 2)]],

@@ -75,15 +75,7 @@ pub fn of(method: &str, lights: u32, costs: Costs) -> Run {
 
 /// A frame that was rendered to a file that nobody reads.
 fn picture(frame: u32) -> Picture {
-    Picture {
-        frame,
-        image: "frame.png".into(),
-        lights: None,
-        heat: None,
-        clusters: None,
-        slices: None,
-        birdseye: None,
-    }
+    Picture { frame, image: "frame.png".into(), ..Picture::default() }
 }
 
 /// Two groups with so many lights on average.

@@ -128,10 +128,9 @@ fn slices_are_drawn_a_row_a_law_and_told_in_tables() {
         .map(|law| by(exact(NAME, 90.0), SphereTest::Box, Clusters::Visible, law))
         .to_vec();
     for run in &mut runs {
-        let (lights, heat, clusters, birdseye) = (None, None, None, None);
         let slices = Some(path.clone());
         let image = path.clone();
-        run.pictures = vec![Picture { frame: 300, image, lights, heat, clusters, slices, birdseye }];
+        run.pictures = vec![Picture { frame: 300, image, slices, ..Picture::default() }];
     }
     let set = set(runs);
     let figures = figures::all(&set).unwrap();

@@ -117,8 +117,7 @@ pub fn of(
         most: bytes,
     };
     let image = "frame.png".into();
-    let picture =
-        Picture { frame: 300, image, lights: None, heat: None, clusters: None, slices: None, birdseye: None };
+    let picture = Picture { frame: 300, image, ..Picture::default() };
     let radii = node(filled.method).filter(|_| filled.method.kind().name == HASHED);
     let octree = radii.map(|radii| octree(1.0 / radii, lights));
     Run { setting: blank.setting, memory: vec![row], octree, pictures: vec![picture], ..filled }

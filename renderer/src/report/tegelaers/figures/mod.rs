@@ -7,6 +7,7 @@ mod overdraw;
 mod parts;
 mod pictures;
 mod plans;
+mod shares;
 mod trees;
 
 use super::evaluation::Evaluation;
@@ -38,11 +39,14 @@ pub fn all(set: &ResultSet) -> Result<Vec<Figure>> {
     all.extend(pictures::scenes(&evaluations)?);
     all.push(colors);
     all.extend(drawn(&OVERDRAW, &overdraw::chart));
+    all.extend(pictures::gbuffers(&evaluations)?);
     all.extend(planned(&plans::PIPELINES));
     all.extend(planned(&plans::TILES));
+    all.extend(shares::TILES.figures(&evaluations)?);
     all.extend(planned(&plans::TILES_ON_AVERAGE));
     all.extend(drawn(&PARTS, &parts::chart));
     all.extend(planned(&plans::CLUSTERS));
+    all.extend(shares::CLUSTERS.figures(&evaluations)?);
     all.extend(planned(&plans::CLUSTERS_ON_AVERAGE));
     all.extend(drawn(&BUILDING_BY_SEED, &trees::construction_by_seed));
     all.extend(drawn(&MEMORY_BY_SEED, &trees::memory_by_seed));
@@ -61,6 +65,7 @@ pub fn all(set: &ResultSet) -> Result<Vec<Figure>> {
     all.extend(drawn(&COMPUTATIONS_BY_NODE, &|evaluation| {
         nodes::by_lights(evaluation, "computations", |run| mean(run, metric::COMPUTATIONS))
     }));
+    all.extend(shares::NODES.figures(&evaluations)?);
     for (wanted, what, of) in BY_DEPTH {
         all.extend(drawn(&wanted, &|evaluation| nodes::by_depth(evaluation, what, of)));
     }

@@ -1,23 +1,40 @@
 //! What is drawn of results, and what is said where there are none.
 
 use super::all;
+use crate::methods::Method;
 use crate::output::write_png;
 use crate::report::chart::{Chart, Plot, Series};
 use crate::report::figure::Figure;
 use crate::report::results::{Picture, Run};
-use crate::report::tegelaers::testing::{costs, elsewhere, everything};
+use crate::report::tegelaers::evaluation::Pipeline;
+use crate::report::tegelaers::testing::{SIDES, costs, elsewhere, everything};
 use crate::report::testing::{assert_well_formed, set};
 use image::RgbImage;
 use std::path::Path;
 
-/// Everything in two scenes, with one picture for all frames.
+/// Everything in two scenes, with one frame for all runs, heat maps by method, and looks from runs of brute force.
 fn results(directory: &Path) -> Vec<Run> {
-    let image = directory.join("frame.png");
-    write_png(&image, &RgbImage::from_pixel(16, 16, image::Rgb([1, 2, 3]))).unwrap();
-    let shown = |picture: Picture| Picture { image: image.clone(), ..picture };
+    let written = |name: &str| {
+        let path = directory.join(name);
+        if !path.is_file() {
+            write_png(&path, &RgbImage::from_pixel(16, 16, image::Rgb([1, 2, 3]))).unwrap();
+        }
+        path
+    };
     let mut street = everything(costs);
     for run in &mut street {
-        run.pictures = std::mem::take(&mut run.pictures).into_iter().map(shown).collect();
+        let [side, _] = run.setting.resolution;
+        let [naive, deferred] = [run.method == Method::AllLights, Pipeline::of(run) == Pipeline::Deferred];
+        run.pictures = [300, 580]
+            .map(|frame| Picture {
+                frame,
+                image: written(&format!("{frame}.png")),
+                share: Some(written(&format!("{frame}_{}_{side}_share.png", run.method))),
+                plan: naive.then(|| written("plan.png")),
+                gbuffer: (naive && deferred).then(|| written("gbuffer.png")),
+                ..Picture::default()
+            })
+            .into();
     }
     let hall = street.clone().into_iter().map(elsewhere);
     hall.chain(street.clone()).collect()
@@ -98,6 +115,60 @@ fn frames_are_drawn_in_two_corners() {
     let tiled = &lines(&frames, 3)[1];
     let ms = 0.3 + 0.4096 * (0.5 + 4.0 * 1200.0);
     assert!(close(tiled.points[1][1], ms * 1.6) && tiled.points[1][0] == 300.0, "{tiled:?}");
+}
+
+/// Names of the files of a chart's pictures, row by row.
+fn files(chart: &Chart) -> Vec<String> {
+    let name = |panel: &Option<Plot>| match panel {
+        Some(Plot::Picture(picture)) => {
+            Path::new(&picture.file).file_name().unwrap().to_str().unwrap().to_owned()
+        }
+        other => panic!("a picture, not {other:?}"),
+    };
+    chart.panels.iter().map(name).collect()
+}
+
+#[test]
+fn scenes_are_shown_with_plans_and_gbuffers() {
+    let figures = all_figures();
+    let scenes = chart(&figures, "T3.2");
+    assert_eq!(scenes.rows, ["hall (hall)", "street (bistro)"]);
+    assert_eq!(scenes.columns, ["first", "last", "lights from above"]);
+    assert_eq!(files(&scenes), ["300.png", "580.png", "plan.png"].repeat(2));
+    assert_eq!(files(&chart(&figures, "T4.3")), ["gbuffer.png"; 2]);
+}
+
+#[test]
+fn columns_that_no_scene_has_are_left_out() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut runs = results(directory.path());
+    runs.iter_mut().flat_map(|run| &mut run.pictures).for_each(|picture| picture.plan = None);
+    let scenes = chart(&all(&set(runs)).unwrap(), "T3.2");
+    assert_eq!(files(&scenes), ["300.png", "580.png"].repeat(2));
+}
+
+#[test]
+fn heat_maps_are_of_each_method_with_the_most_lights_and_pixels() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut runs = results(directory.path());
+    // The largest images are of too few methods.
+    let is_tile = |run: &Run| run.method.to_string().starts_with("tiled-mm-");
+    for run in runs.iter_mut().filter(|run| run.setting.resolution[0] == SIDES[2] && is_tile(run)) {
+        run.pictures.clear();
+    }
+    let figures = all(&set(runs)).unwrap();
+    let tiles = chart(&figures, "T5.8");
+    assert_eq!(tiles.columns, ["frame", "Tiled MM 8", "Tiled MM 16", "Tiled MM 32"]);
+    let shown = ["300.png", "300_tiled-mm-8_320_share.png", "300_tiled-mm-16_320_share.png"];
+    assert_eq!(files(&tiles)[..3], shown);
+    let clusters = chart(&figures, "T6.10");
+    assert_eq!(clusters.columns, ["frame", "Tiled MM 32", "Clustered MM 16", "Clustered MM 32"]);
+    assert_eq!(files(&clusters)[3], "300_clustered-mm-32_320_share.png");
+    let nodes = chart(&figures, "T7.29");
+    assert_eq!(nodes.columns[1..], [0.25, 0.5, 1.0, 2.0, 3.0].map(|radii| format!("Hashed {radii} 3")));
+    assert_eq!(files(&nodes)[1], "300_hashed-0.25-3_640_share.png");
+    let Some(Plot::Picture(picture)) = &nodes.panels[1] else { panic!("a picture") };
+    assert!(picture.alt.ends_with("by hashed-0.25-3, 1200 lights, 640 × 640"), "{}", picture.alt);
 }
 
 #[test]
