@@ -38,7 +38,7 @@ impl Look {
     /// The looks at frames of a run. Lights and G-buffer are the same by every method: runs of brute force show them.
     pub(crate) fn of(run: &PlannedRun) -> impl Iterator<Item = Self> + use<> {
         let naive = run.method == Method::AllLights;
-        let in_volumes = matches!(run.lights, LightsFrom::Generated(Generator::Volume(..), _));
+        let in_volumes = matches!(run.lights, LightsFrom::Generated(Generator::Volume(..), ..));
         let deferred = run.config.pipeline[0] == ShadingPipeline::Deferred;
         let assigns = run.method.assigns();
         Self::ALL.into_iter().filter(move |look| match look {
