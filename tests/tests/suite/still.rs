@@ -135,8 +135,9 @@ fn frusta_reach_their_corners_and_lights_tint_the_picture() {
 
 /// How many entries a picture of hash tables has of a colour. Its margin, 4 entries wide, tells how large entries are.
 fn entries_of(table: &RgbImage, color: Rgb<u8>) -> u64 {
-    let margin =
-        (0..table.width()).take_while(|x| *table.get_pixel(*x, table.height() / 3) == *table.get_pixel(0, 0));
+    let gap = *table.get_pixel(0, 0);
+    let is_gap = |x: &u32| (0..table.height()).all(|y| *table.get_pixel(*x, y) == gap);
+    let margin = (0..table.width()).take_while(is_gap);
     let scale = margin.count() as u64 / 4;
     assert!(scale > 0, "there is a margin");
     table.pixels().filter(|pixel| **pixel == color).count() as u64 / (scale * scale)
