@@ -270,6 +270,21 @@ fn what_no_octree_holds_is_refused_in_one_line() {
 }
 
 #[test]
+fn lights_too_large_for_nodes_of_the_smallest_are_refused_before_their_octrees_are_made() {
+    let out = tempfile::tempdir().unwrap();
+    let file = out.path().join("lights.csv");
+    let lights = "x,y,z,r,g,b,i,i0,r0,r1\n0,1,0,1,1,1,1,0.5,0.001,0.01\n0,1,0,1,1,1,100000,0.5,0.1,50\n";
+    std::fs::write(&file, lights).unwrap();
+    let mut command = manylight();
+    command.args(["replay", "--method", "hashed-0.5-3", "--frames", "300", "--resolution", "32x20"]);
+    command.arg("--lights-file").arg(&file).arg("--out").arg(out.path().join("out"));
+    let output = command.output().unwrap();
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(3), "{told}");
+    assert!(told.contains("the lights are too large for nodes of"), "{told}");
+}
+
+#[test]
 fn frames_without_lights_are_dark_and_right() {
     let frames = FrameRange { first: 300, end: Some(301), step: 1 };
     let lights = vec![Lighting::with_count(0)];
