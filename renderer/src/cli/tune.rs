@@ -13,8 +13,8 @@ use std::path::PathBuf;
 #[command(args_override_self = true)]
 pub struct Args {
     /// JSON configuration over the built-in defaults; flags go over it. `methods` says where the search starts; `assign`
-    /// (brute, hierarchy, scatter), `test` (auto, exact, hs+sat-n) and `clusters` what is tried. `runs` (auto) is how often the last few
-    /// are timed.
+    /// (brute, hierarchy, scatter, rectangles for test mm), `test` (auto, exact, hs+sat-n) and `clusters` what is tried. `runs` (auto) is
+    /// how often the last few are timed.
     #[arg(long, value_name = "FILE.json")]
     config: Option<PathBuf>,
 

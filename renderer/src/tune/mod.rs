@@ -34,7 +34,7 @@ use timer::{Effort, Timer};
 /// temporal runs as it takes, up to fewer than a replay makes: a search times dozens of candidates.
 pub fn defaults() -> Config {
     Config {
-        assign: vec![Assign::Brute, Assign::Hierarchy, Assign::Scatter],
+        assign: vec![Assign::Brute, Assign::Hierarchy, Assign::Scatter, Assign::Rectangles],
         test: vec![
             Test::Auto,
             Test::from(SphereTest::Exact),

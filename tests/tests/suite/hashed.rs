@@ -1,7 +1,7 @@
 //! Octrees over the lights: built where these have changed and nowhere else, what is told of them, and what is refused.
 
 use manylight::assign::Marking;
-use manylight::config::{Config, FrameRange};
+use manylight::config::{Config, ExrFrames, FrameRange};
 use manylight::lights::{GeneratorKind, LightMotion, Lighting};
 use manylight::measure::{FrameCounts, FrameTimes};
 use manylight::octree::BuildTimes;
@@ -238,6 +238,26 @@ fn octrees_that_are_kept_follow_their_lights() {
     assert!(sum(&few[3], FrameCounts::octree_extra_indices) > 0, "lights that leave a part of a leaf stay");
     let again = run(bouncing(0.1, &names));
     assert!(few.iter().zip(&again).all(|(one, other)| one.counts == other.counts), "counts repeat");
+}
+
+#[test]
+fn memory_grows_with_the_cube_of_nodes_and_not_with_pictures() {
+    let bytes = |names: &[&str], resolution: [u32; 2]| -> Vec<u64> {
+        let runs = run(Config {
+            lights: vec![Lighting::with_count(384)],
+            // Lights everywhere lie in many others.
+            light_volumes: vec!["-4,1,-4,4,7,4:8x6x8:4".parse().unwrap()],
+            frames: FrameRange { first: 300, end: Some(301), step: 1 },
+            exr: ExrFrames::List(vec![]),
+            resolution,
+            ..hall(names)
+        });
+        runs.iter().map(|run| run.counts[0].octree_bytes()).collect()
+    };
+    let found = bytes(&["hashed-0.125-3", "hashed-0.0625-3"], [16, 16]);
+    let exponent = (found[1] as f64 / found[0] as f64).log2();
+    assert!((exponent - 3.0).abs() <= 0.2, "{exponent}: {found:?}");
+    assert_eq!(bytes(&["hashed-0.125-3"], [96, 64]), found[..1], "whatever the pixels");
 }
 
 #[test]

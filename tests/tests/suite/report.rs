@@ -286,6 +286,43 @@ fn edit(path: &Path, from: &str, to: &str) {
 }
 
 #[test]
+fn one_wrong_number_of_a_run_shows_in_its_own_place_of_every_figure_it_is_in() {
+    let results = tempfile::tempdir().unwrap();
+    for (method, lights) in ["all-lights", "tiled-mm-32", "hashed-0.5-3", "hashed-1-3"]
+        .into_iter()
+        .flat_map(|method| [100, 1000].map(|lights| (method, lights)))
+    {
+        write_run(results.path(), ["street", "bistro"], 1, method, lights);
+    }
+    let drawn = || {
+        let output = report(&[results.path().as_ref()]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        ["T5.10", "T7.28"].map(|id| {
+            let file = results.path().join(format!("report/figures/{id}.csv"));
+            fs::read_to_string(file).unwrap().lines().map(str::to_owned).collect::<Vec<_>>()
+        })
+    };
+    let right = drawn();
+    let mean = 1000 + FRAMES.iter().sum::<u32>() / 4;
+    let tiles = |mean| format!("computations (forward),street (bistro),Tiled MM 32,1000,{mean}");
+    let nodes = |mean| format!("computations,street (bistro),100 lights,0.5,{mean}");
+    assert!(right[0].contains(&tiles(mean)) && right[1].contains(&nodes(mean)), "{right:?}");
+    for (run, more) in [("tiled-mm-32_1000", 4000), ("hashed-0.5-3_100", 8000)] {
+        let wrong = 1000 + FRAMES[1] + more;
+        edit(&results.path().join(run).join("frames.csv"), ",1300,", &format!(",{wrong},"));
+    }
+    let wrong = drawn();
+    for (place, (told, line)) in
+        [(tiles(mean), tiles(mean + 1000)), (nodes(mean), nodes(mean + 2000))].into_iter().enumerate()
+    {
+        let mut expected = right[place].clone();
+        expected.iter_mut().filter(|known| **known == told).for_each(|known| known.clone_from(&line));
+        assert_eq!(wrong[place], expected);
+        assert_ne!(wrong[place], right[place]);
+    }
+}
+
+#[test]
 fn ways_of_assignment_stand_side_by_side_and_never_in_one_figure() {
     let results = tempfile::tempdir().unwrap();
     for (way, test) in [("brute", "hs"), ("hierarchy", "hs"), ("brute", "exact")] {

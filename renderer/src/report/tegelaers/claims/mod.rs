@@ -43,8 +43,9 @@ pub const CLAIMS: [Stated; 14] = [
     Stated {
         id: "H4",
         claim: "Below a size of nodes, memory and time of building grow with the cube of their number along an axis.",
-        criterion: "In every scene, under many lights: the least-squares exponent of the bytes of the octree over the reciprocal of the size of nodes, \
-                     of all sizes up to a radius, is 2.8 to 3.2, that of the time of building 2.5 to 3.5.",
+        criterion: "In every scene, under many lights: from the second smallest to the smallest size of nodes, of those up to a radius, the bytes of the \
+                     octree grow with the power 2.8 to 3.2 of the nodes along an axis, the time of building with the power 2.5 to 3.5. What a light \
+                     fills or leaves empty merges: where lights lie apart, nodes are those along their surfaces, and the power is 2.",
         of_ways: false,
         find: octree::cubic,
     },

@@ -48,8 +48,11 @@ pub(super) fn large(set: &ResultSet) -> Findings {
 pub(super) fn small(set: &ResultSet) -> Findings {
     in_every_scene(set, |place, findings| {
         let pipeline = place.evaluation.counting();
-        let nodes: Vec<Method> =
-            place.evaluation.nodes().into_iter().filter(|method| node(*method).is_some()).collect();
+        // Scenes differ in the sizes that they were measured with.
+        let is_there = |method: &Method| place.scene.of(*method, pipeline).next().is_some();
+        let in_radii = |method: &Method| node(*method).is_some();
+        let mut nodes = place.evaluation.nodes();
+        nodes.retain(|method| in_radii(method) && is_there(method));
         let ends = nodes.first().zip(nodes.last()).filter(|(smallest, largest)| smallest != largest);
         let found = ends.and_then(|(smallest, largest)| {
             let methods = [*smallest, *largest].map(|method| (method, pipeline));

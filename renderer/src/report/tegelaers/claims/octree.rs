@@ -6,7 +6,6 @@ use crate::report::claim::{Findings, Number, Outcome, mean, milliseconds, number
 use crate::report::results::{ResultSet, metric};
 use crate::report::tegelaers::evaluation::{Case, Corner, HASHED, lights, node, start_depth};
 use crate::report::tegelaers::octree::{construction, memory};
-use crate::stats;
 
 /// The cube, and how far exponents may lie off it: of memory, and of times.
 const CUBE: f64 = 3.0;
@@ -25,21 +24,27 @@ pub(super) fn cubic(set: &ResultSet) -> Findings {
         for (what, of, off) in
             [("memory", memory as fn(&_) -> _, OFF[0]), ("time of building", construction, OFF[1])]
         {
-            let point = |case: &&Case<'_>| Some((node(case.run.method)?.ln(), of(case.run)?.ln()));
+            let point = |case: &&Case<'_>| Some((node(case.run.method)?, of(case.run)?));
             let points: Vec<(f64, f64)> = cases.iter().filter_map(point).collect();
-            let Some(slope) = stats::slope(&points) else {
+            let exponents: Vec<Number> = points.windows(2).map(|pair| exponent(pair[1], pair[0])).collect();
+            let Some(finest) = exponents.first().map(|exponent| exponent.value) else {
                 findings.lack(format!(
                     "runs of {HASHED} with nodes of two sizes up to a radius, in {}",
                     place.scene.name()
                 ));
                 continue;
             };
-            let comparison = format!("{what} over the size of nodes, {}", lights(cases[0].lights));
-            let numbers = vec![number("exponent", -slope), number("sizes", points.len() as f64)];
-            let outcome = Outcome::within(-slope, [CUBE - off, CUBE + off]);
-            findings.compare_in(place.name(), comparison, numbers, outcome);
+            let comparison =
+                format!("exponent of {what} from size to size of nodes, {}", lights(cases[0].lights));
+            let outcome = Outcome::within(finest, [CUBE - off, CUBE + off]);
+            findings.compare_in(place.name(), comparison, exponents, outcome);
         }
     })
+}
+
+/// By which power of the nodes along an axis a number grows from one size, in radii, to a smaller one.
+fn exponent(from: (f64, f64), to: (f64, f64)) -> Number {
+    number(format!("{} to {}", from.0, to.0), (to.1 / from.1).ln() / (from.0 / to.0).ln())
 }
 
 pub(super) fn seeds(set: &ResultSet) -> Findings {

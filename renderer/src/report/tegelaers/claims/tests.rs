@@ -127,7 +127,7 @@ fn claims_of_octrees_fail_where_tables_or_steps_say_so() {
             .for_each(|table| table.slot_bytes *= 100);
     };
     let fails: [(&str, Vec<Run>); 7] = [
-        ("H4", grown(|_| true, |built, radii| swell(built, radii.sqrt()))),
+        ("H4", grown(|_| true, swell)),
         ("H4", grown(|_| true, |built, radii| slow(built, radii))),
         ("H5", grown(is_seed, |built, _| swell(built, 1.03))),
         ("H5", grown(is_seed, |built, _| slow(built, 1.3))),
@@ -148,11 +148,39 @@ fn claims_of_octrees_fail_where_tables_or_steps_say_so() {
 }
 
 #[test]
+fn growth_is_judged_by_the_smallest_nodes_and_told_of_all() {
+    let of_size = |size: f64| move |run: &Run| node(run.method) == Some(size);
+    let flat =
+        |built: &mut BuiltOctree, _: f64| built.tables.iter_mut().for_each(|table| table.slot_bytes *= 2);
+    // Twice the bytes with the largest of the nodes: half the growth from these on, the power is one less.
+    let found = claim("H4", grown(of_size(1.0), flat));
+    assert_eq!(found.verdict, Verdict::Holds);
+    let memory = &found.evidence[0];
+    assert_eq!(memory.comparison, "exponent of memory from size to size of nodes, 1200 lights");
+    let told: Vec<&str> = memory.numbers.iter().map(|number| number.name.as_str()).collect();
+    assert_eq!(told, ["0.5 to 0.25", "1 to 0.5"]);
+    assert!((memory.numbers[0].value - 3.0).abs() < 0.01, "{:?}", memory.numbers);
+    // Half of the bytes are light indices, which stay.
+    assert!((memory.numbers[1].value - (3.0 - 1.5_f64.log2())).abs() < 0.01, "{:?}", memory.numbers);
+    assert_eq!(claim("H4", grown(of_size(0.25), flat)).verdict, Verdict::DoesNotHold);
+}
+
+#[test]
 fn nodes_beyond_the_diameter_may_cost_more_elsewhere() {
     let dear = but("hashed-3", |_, costs| Costs { computations: [9.0, 0.2], ..costs });
     let found = claim("H12", [dear, everything(costs).into_iter().map(elsewhere).collect()].concat());
     assert_eq!((found.verdict, found.evidence.len()), (Verdict::Holds, 1));
     assert!(found.evidence[0].setting.starts_with("hall"));
+}
+
+#[test]
+fn each_scene_is_judged_by_the_sizes_that_it_has() {
+    let mut hall: Vec<Run> = everything(costs).into_iter().map(elsewhere).collect();
+    hall.retain(|run| !run.method.to_string().starts_with("hashed-0.25"));
+    let found = claim("H13", [hall, everything(costs)].concat());
+    assert_eq!((found.verdict, found.missing.len()), (Verdict::Holds, 0));
+    let smallest: Vec<&str> = found.evidence.iter().map(|evidence| &*evidence.numbers[0].name).collect();
+    assert_eq!(smallest, ["Hashed 0.5 3", "Hashed 0.25 3"]);
 }
 
 #[test]

@@ -208,7 +208,7 @@ const BY_DEPTH: [OfOctree; 3] = [
 const TIME_BY_NODE: Wanted<'static> = Wanted {
     id: "T7.27",
     title: "Frame time over the size of nodes",
-    caption: "Mean GPU time of a frame (ms), a line a set of lights, with the most pixels. The thesis calls this texels, by a caption \
+    caption: "Mean GPU time of a frame (ms), a line a set of lights, with as many pixels as most sizes. The thesis calls this texels, by a caption \
               that belongs to another of its figures.",
     missing: "needs temporal runs of hashed with two sizes of nodes at least, in radii",
 };
@@ -216,7 +216,7 @@ const TIME_BY_NODE: Wanted<'static> = Wanted {
 const COMPUTATIONS_BY_NODE: Wanted<'static> = Wanted {
     id: "T7.28",
     title: "Lighting computations over the size of nodes",
-    caption: "Evaluations of a light for a fragment in a frame, mean over the frames, a line a set of lights, with the most pixels. The \
+    caption: "Evaluations of a light for a fragment in a frame, mean over the frames, a line a set of lights, with as many pixels as most sizes. The \
               thesis calls this light indices, by a caption that belongs to another of its figures.",
     missing: "needs runs of hashed with two sizes of nodes at least, in radii",
 };
@@ -224,7 +224,7 @@ const COMPUTATIONS_BY_NODE: Wanted<'static> = Wanted {
 const TIME_BY_DEPTH: Wanted<'static> = Wanted {
     id: "T7.33",
     title: "Frame time over the size of nodes, by starting depth",
-    caption: "Mean GPU time of a frame (ms), a line a starting depth, under the most lights and with the most pixels.",
+    caption: "Mean GPU time of a frame (ms), a line a starting depth, under the most lights, with as many pixels as most sizes.",
     missing: "needs temporal runs of hashed with two sizes of nodes at least, in radii",
 };
 

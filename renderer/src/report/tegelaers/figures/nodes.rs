@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 /// A number of a run.
 pub type Number = fn(&Run) -> Option<f64>;
 
-/// A line a set of lights, by the starting depth of most sizes and with the most pixels; `None` where there are no two sizes.
+/// A line a set of lights, by the starting depth of most sizes, with as many pixels as most were measured with; `None` where there are no two sizes.
 pub fn by_lights(evaluation: &Evaluation<'_>, what: &str, of: Number) -> Option<Chart> {
     let methods = evaluation.nodes();
     let is_of = |case: &&Case<'_>| methods.contains(&case.run.method);
@@ -32,7 +32,7 @@ pub fn by_lights(evaluation: &Evaluation<'_>, what: &str, of: Number) -> Option<
     chart(evaluation, what, keys.clone(), &lines)
 }
 
-/// A line a starting depth, under the most lights and with the most pixels; `None` where there are no two sizes.
+/// A line a starting depth, under the most lights, with as many pixels as most were measured with; `None` where there are no two sizes.
 pub fn by_depth(evaluation: &Evaluation<'_>, what: &str, of: Number) -> Option<Chart> {
     let methods = evaluation.methods(HASHED);
     let mut depths: Vec<f64> = methods.iter().map(|method| start_depth(*method)).collect();
@@ -112,19 +112,21 @@ fn counts(scene: &Scene<'_>, methods: &[Method]) -> Vec<u32> {
     counts.into_iter().collect()
 }
 
-/// The most pixels that two of the methods were measured with.
+/// As many pixels as most of the methods were measured with, two at least; of several the most.
 fn most_pixels(scene: &Scene<'_>, evaluation: &Evaluation<'_>, methods: &[Method]) -> Option<u64> {
-    let cases = || {
-        let pipeline = evaluation.counting();
+    let pipeline = evaluation.counting();
+    let of_methods = || {
         scene.cases.iter().filter(move |case| case.pipeline == pipeline && methods.contains(&case.run.method))
     };
-    let sizes: BTreeSet<u64> = cases().map(|case| case.pixels).collect();
-    let several = |pixels: u64| {
-        let measured: Vec<Method> =
-            cases().filter(|case| case.pixels == pixels).map(|case| case.run.method).collect();
-        measured.iter().any(|method| *method != measured[0])
+    let sizes: BTreeSet<u64> = of_methods().map(|case| case.pixels).collect();
+    let measured = |pixels: u64| {
+        // Cases come method by method.
+        let mut found: Vec<Method> =
+            of_methods().filter(|case| case.pixels == pixels).map(|case| case.run.method).collect();
+        found.dedup();
+        found.len()
     };
-    sizes.into_iter().rev().find(|&pixels| several(pixels))
+    sizes.into_iter().filter(|&pixels| measured(pixels) > 1).max_by_key(|&pixels| measured(pixels))
 }
 
 fn place_name(place: usize, count: usize) -> String {

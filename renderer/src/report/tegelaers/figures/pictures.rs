@@ -6,13 +6,14 @@ use crate::report::figure::{Drawn, Figure, Wanted, figures};
 use crate::report::pictures::{Kind, shown};
 use crate::report::results::{Picture, Run};
 use crate::report::tegelaers::evaluation::{Evaluation, Scene};
+use std::cmp::Reverse;
 use std::path::Path;
 
 const SCENES: Wanted<'static> = Wanted {
     id: "T3.2",
     title: "Scenes",
-    caption: "The first and the last of the frames that were rendered to files, tone-mapped, under the most lights; and the volumes of \
-              these from above, with the camera's frustum in green.",
+    caption: "The first and the last of the frames that were rendered to files, tone-mapped, under the fewest lights; and the \
+              volumes of these from above, with the camera's frustum in green.",
     missing: "needs rendered frames: replay with --exr and frame numbers",
 };
 
@@ -34,7 +35,10 @@ type Column = (&'static str, Kind, fn(&Run) -> Option<(&Picture, &Path)>);
 pub fn scenes(evaluations: &[Evaluation<'_>]) -> Result<Vec<Figure>> {
     let columns: [Column; 3] = [
         ("first", Kind::Photo, |run| run.pictures.first().map(|picture| (picture, picture.image.as_path()))),
-        ("last", Kind::Photo, |run| run.pictures.last().map(|picture| (picture, picture.image.as_path()))),
+        ("last", Kind::Photo, |run| {
+            let last = run.pictures.last().filter(|_| run.pictures.len() > 1);
+            last.map(|picture| (picture, picture.image.as_path()))
+        }),
         ("lights from above", Kind::Photo, |run| {
             let picture = run.pictures.first()?;
             Some((picture, picture.plan.as_deref()?))
@@ -89,8 +93,9 @@ fn by_scene(evaluations: &[Evaluation<'_>], wanted: &Wanted<'_>, columns: &[Colu
     Ok(figures(wanted, drawn))
 }
 
-/// Of the runs that have a picture that of the most pixels and lights, for all methods give the same.
-fn pictured<'a, T>(scene: &Scene<'a>, of: fn(&'a Run) -> Option<T>) -> Option<T> {
+/// Of the runs that have a picture that of the fewest lights, for many are too bright for a display, and of the most pixels; all
+/// methods give the same.
+pub fn pictured<'a, T>(scene: &Scene<'a>, of: impl Fn(&'a Run) -> Option<T>) -> Option<T> {
     let pictured = scene.cases.iter().filter_map(|case| Some((case, of(case.run)?)));
-    pictured.max_by_key(|(case, _)| (case.pixels, case.lights)).map(|(_, found)| found)
+    pictured.max_by_key(|(case, _)| (Reverse(case.lights), case.pixels)).map(|(_, found)| found)
 }

@@ -1,5 +1,6 @@
 //! Lighting computations of pixels relative to the naive method's (5.8, 6.10, 7.29).
 
+use super::pictures::pictured;
 use crate::Result;
 use crate::methods::Method;
 use crate::report::chart::{Chart, Plot};
@@ -48,9 +49,9 @@ pub const NODES: Shares = Shares {
     wanted: Wanted {
         id: "T7.29",
         title: "Computations of pixels by nodes",
-        caption: "A frame, then the lights that are computed for each pixel as a part of all, which is what the naive method computes: black for \
-                  none, white for all (the colours of T3.5), dark grey where nothing was hit. Under the most lights and pixels with pictures of \
-                  most methods.",
+        caption: "A frame under the fewest lights, then, under the most with pictures of most methods, the lights that are computed for each \
+                  pixel as a part of all, which is what the naive method computes: black for none, white for all (the colours of T3.5), dark grey \
+                  where nothing was hit.",
         missing: "needs rendered frames of hashed: replay with --exr and frame numbers",
     },
     methods: |evaluation| evaluation.nodes(),
@@ -92,10 +93,8 @@ impl Shares {
             rows: found.iter().map(|(scene, _)| scene.name()).collect(),
             ..Chart::default()
         };
-        for (_, seen) in &found {
-            let (case, picture, _) = seen[0];
-            let alt = format!("Frame {}, {}", picture.frame, case.size());
-            chart.panels.push(Some(shown(&picture.image, picture.frame, alt, Kind::Photo)?));
+        for (scene, seen) in &found {
+            chart.panels.push(frame(scene, seen[0].1.frame)?);
             for method in &methods {
                 let of_method = seen.iter().find(|(case, ..)| case.run.method == *method);
                 chart.panels.push(of_method.map(drawn_share).transpose()?);
@@ -103,6 +102,13 @@ impl Shares {
         }
         Ok((!chart.rows.is_empty()).then_some(chart))
     }
+}
+
+/// The frame itself.
+fn frame(scene: &Scene<'_>, number: u32) -> Result<Option<Plot>> {
+    let found = pictured(scene, |run| run.pictures.iter().find(|picture| picture.frame == number));
+    let alt = format!("Frame {number} of {}", scene.setting.scene);
+    found.map(|picture| shown(&picture.image, number, alt, Kind::Photo)).transpose()
 }
 
 fn drawn_share((case, picture, path): &Seen<'_>) -> Result<Plot> {

@@ -23,12 +23,12 @@ fn results(directory: &Path) -> Vec<Run> {
     };
     let mut street = everything(costs);
     for run in &mut street {
-        let [side, _] = run.setting.resolution;
+        let ([side, _], lights) = (run.setting.resolution, run.lighting.count.unwrap());
         let [naive, deferred] = [run.method == Method::AllLights, Pipeline::of(run) == Pipeline::Deferred];
         run.pictures = [300, 580]
             .map(|frame| Picture {
                 frame,
-                image: written(&format!("{frame}.png")),
+                image: written(&format!("{frame}_{lights}_{side}.png")),
                 share: Some(written(&format!("{frame}_{}_{side}_share.png", run.method))),
                 plan: naive.then(|| written("plan.png")),
                 gbuffer: (naive && deferred).then(|| written("gbuffer.png")),
@@ -134,7 +134,7 @@ fn scenes_are_shown_with_plans_and_gbuffers() {
     let scenes = chart(&figures, "T3.2");
     assert_eq!(scenes.rows, ["hall (hall)", "street (bistro)"]);
     assert_eq!(scenes.columns, ["first", "last", "lights from above"]);
-    assert_eq!(files(&scenes), ["300.png", "580.png", "plan.png"].repeat(2));
+    assert_eq!(files(&scenes), ["300_60_640.png", "580_60_640.png", "plan.png"].repeat(2));
     assert_eq!(files(&chart(&figures, "T4.3")), ["gbuffer.png"; 2]);
 }
 
@@ -143,8 +143,12 @@ fn columns_that_no_scene_has_are_left_out() {
     let directory = tempfile::tempdir().unwrap();
     let mut runs = results(directory.path());
     runs.iter_mut().flat_map(|run| &mut run.pictures).for_each(|picture| picture.plan = None);
+    let scenes = chart(&all(&set(runs.clone())).unwrap(), "T3.2");
+    assert_eq!(files(&scenes), ["300_60_640.png", "580_60_640.png"].repeat(2));
+    runs.iter_mut().for_each(|run| run.pictures.truncate(1));
     let scenes = chart(&all(&set(runs)).unwrap(), "T3.2");
-    assert_eq!(files(&scenes), ["300.png", "580.png"].repeat(2));
+    assert_eq!(scenes.columns, ["first"]);
+    assert_eq!(files(&scenes), ["300_60_640.png"; 2]);
 }
 
 #[test]
@@ -159,7 +163,7 @@ fn heat_maps_are_of_each_method_with_the_most_lights_and_pixels() {
     let figures = all(&set(runs)).unwrap();
     let tiles = chart(&figures, "T5.8");
     assert_eq!(tiles.columns, ["frame", "Tiled MM 8", "Tiled MM 16", "Tiled MM 32"]);
-    let shown = ["300.png", "300_tiled-mm-8_320_share.png", "300_tiled-mm-16_320_share.png"];
+    let shown = ["300_60_640.png", "300_tiled-mm-8_320_share.png", "300_tiled-mm-16_320_share.png"];
     assert_eq!(files(&tiles)[..3], shown);
     let clusters = chart(&figures, "T6.10");
     assert_eq!(clusters.columns, ["frame", "Tiled MM 32", "Clustered MM 16", "Clustered MM 32"]);
@@ -239,6 +243,18 @@ fn nodes_are_lines_a_set_of_lights_or_a_starting_depth() {
     assert_eq!(labels(&by_depth), ["depth 1", "depth 3"]);
     let points = |line: usize| lines(&by_depth, 0)[line].points.len();
     assert_eq!([points(0), points(1)], [2, 5]);
+}
+
+#[test]
+fn nodes_are_drawn_with_the_pixels_that_most_sizes_were_measured_with() {
+    let mut runs = everything(costs);
+    let is_usual = |run: &Run| ["hashed-0.25-3", "hashed-0.5-3"].contains(&&*run.method.to_string());
+    runs.retain(|run| run.setting.resolution[0] != SIDES[2] || is_usual(run));
+    runs.iter_mut().for_each(|run| run.pictures.clear());
+    let figure = chart(&all(&set(runs)).unwrap(), "T7.28");
+    assert_eq!(note(&figure, 0), "320 × 320");
+    let sizes: Vec<f64> = lines(&figure, 0)[2].points.iter().map(|point| point[0]).collect();
+    assert_eq!(sizes, [0.25, 0.5, 1.0, 2.0, 3.0]);
 }
 
 #[test]
