@@ -15,7 +15,7 @@ const uint NO_SLICE = 0xFFFFu;
 void main()
 {
     uint tile = gl_GlobalInvocationID.x, light = gl_WorkGroupID.y, tiles = grid.dimensions.x * grid.dimensions.y;
-    if (tile >= tiles)
+    if (tile >= tiles || light >= state.candidates)
         return;
 #if !WRITE_LISTS
     count(COUNTER_INTERSECTION_TESTS, 1u);

@@ -1,7 +1,7 @@
 // The mesh around each light into the clustering camera's space, grown by the slack that covers rounding: that of a sphere about its
 // centre, that of a spot about an apex moved back, so that its sides move out as far.
 #version 460
-#include "generated/gpu_interface.glsl"
+#include "lib/light_volume.glsl"
 
 layout(local_size_x = ASSIGN_WORKGROUP) in;
 
@@ -26,7 +26,9 @@ void main()
 #if SPOTS
     SpotData spot = read_spot(light);
     if (spot.cosine >= 0.0) {
-        back = slack / sqrt((1.0 - spot.cosine) * (1.0 + spot.cosine));
+        float sine = sqrt((1.0 - spot.cosine) * (1.0 + spot.cosine));
+        slack += COSINE_ROUNDING * place.r1 / sine;
+        back = slack / sine;
         origin -= back * spot.axis;
     }
 #endif
