@@ -4,7 +4,8 @@
 //! All ways give the same lists. Brute force tests every visible cluster against every light. The others first drop the
 //! lights whose cells hold nothing visible; what is left, the candidates, the hierarchy puts into a tree, built anew each
 //! frame, down which each visible cluster goes, and scatter hands out to groups of visible clusters. Rectangles hand each light to
-//! the clusters of the tiles in which it is seen.
+//! the clusters of the tiles in which it is seen. Meshes, which methods of their own rasterise, give lists of their own: of the clusters
+//! that the mesh around each light meets.
 
 mod sorted_tiles;
 mod store;
@@ -118,6 +119,8 @@ pub enum Assigner {
     Scatter,
     /// Every light to the visible clusters in the rectangle of tiles in which it is seen, and between its depths (Tegelaers).
     Rectangles,
+    /// Every light to the visible clusters that the mesh around it meets, tile by tile (Örtegren and Persson).
+    Raster,
 }
 
 impl Assigner {
@@ -125,7 +128,7 @@ impl Assigner {
     pub fn culls_lights(self) -> bool {
         match self {
             Self::Hierarchy | Self::Scatter => true,
-            Self::Brute | Self::Rectangles => false,
+            Self::Brute | Self::Rectangles | Self::Raster => false,
         }
     }
 
@@ -142,6 +145,7 @@ impl fmt::Display for Assigner {
             Self::Hierarchy => "hierarchy",
             Self::Scatter => "scatter",
             Self::Rectangles => "rectangles",
+            Self::Raster => "raster",
         })
     }
 }
@@ -188,8 +192,8 @@ impl AssignCounts {
                 let nodes = NODES_FOUND * indices + NODES_DESCENT * visible;
                 COST_HIERARCHY + COST_CULL_LIGHT * lights + COST_NODE * nodes
             }
-            // It serves one test alone, and is not chosen.
-            Assigner::Rectangles => f64::INFINITY,
+            // They serve one test alone, or methods of their own, and are not chosen.
+            Assigner::Rectangles | Assigner::Raster => f64::INFINITY,
         }
     }
 }

@@ -28,7 +28,8 @@
 //! All ways go to `list_lengths` by way of `light_masks` where these have room. Hierarchy and scatter first put the lights
 //! that may meet a visible cluster into `candidates` (cull_lights: `block_bits`, `light_bits`); then the hierarchy makes
 //! `sort_items`, `digit_counts`, `tree_volumes`, `tree_lights` and `light_nodes`, scatter `groups`, `packet_groups` and
-//! `group_lights`. Rectangles go to `light_rectangles` instead of `light_volumes`.
+//! `group_lights`. Rectangles go to `light_rectangles` instead of `light_volumes`. Meshes go from `mesh_frames` to `light_frames`, and with `mesh_vertices`
+//! and `mesh_triangles` to `shell_ranges`.
 //!
 //! Visible clusters may be found by sorting the samples of tiles: `views` and `grid` go to `tile_counts` and `tile_slices`
 //! (sort_tiles), and their prefix sum to `tile_offsets`, in place of `word_ranks`.
@@ -49,7 +50,7 @@ pub use sizes::ClusteringSizes;
 use crate::gpu_interface::{
     BLOCK_WORDS, COUNTER_COUNT, Candidate, ClusterBox, ClusterGroup, ClusteringState, DISPATCH_COUNT,
     DispatchSize, GridData, InstanceData, LightData, LightNode, LightRectangle, LightVolume,
-    MEASUREMENT_WORDS, OctreeData, PixelData, SpotData,
+    MEASUREMENT_WORDS, MeshFrame, OctreeData, PixelData, SpotData,
 };
 use crate::measure::{OctreeSizes, Purpose};
 use info::{buffer, bytes};
@@ -256,6 +257,23 @@ buffers! {
         .texels("spot", Element::Struct(SpotData::INFO))
         .sized(|s| bytes::<SpotData>(s.cones()))
         .serving(Purpose::Lights);
+    /// What takes the template of the mesh around each light to world space, where meshes are rasterised.
+    MeshFrames = buffer("mesh_frames", Owner::Engine)
+        .storage("MeshFrame mesh_frames[]")
+        .sized(|s| bytes::<MeshFrame>(s.meshes()))
+        .serving(Purpose::Lights);
+    /// Vertices of the templates of meshes: of points, then of spots.
+    MeshVertices = buffer("mesh_vertices", Owner::Scene).storage("vec4 mesh_vertices[]");
+    /// Triangles of the templates of meshes, three numbers of vertices of 10 bits each: of points, then of spots.
+    MeshTriangles = buffer("mesh_triangles", Owner::Scene).storage("uint mesh_triangles[]");
+    /// What takes templates to clustering space, grown by what covers rounding.
+    LightFrames = buffer("light_frames", Owner::Clustering)
+        .storage("MeshFrame light_frames[]")
+        .sized(|s| bytes::<MeshFrame>(s.meshes()));
+    /// The slices of each tile in which the mesh around each light lies: the first, and in the upper half how many lie behind the last.
+    ShellRanges = buffer("shell_ranges", Owner::Clustering)
+        .storage("uint shell_ranges[]")
+        .sized(|s| bytes::<u32>(s.meshes() * s.tiles));
     /// Boxes around the scene's models, in drawing order.
     ModelBoxes = buffer("model_boxes", Owner::Scene).storage("ModelBox model_boxes[]");
     /// What is drawn of the scene where the device culls.

@@ -4,9 +4,6 @@
 
 #include "generated/gpu_interface.glsl"
 
-// Those of the finest sphere.
-const uint MOST_MESH_VERTICES = 642u;
-
 vec3 placed_vertex(MeshFrame frame, vec4 vertex)
 {
     precise vec3 place = frame.origin + frame.x * vertex.x + frame.y * vertex.y + frame.z * vertex.z + frame.tip * vertex.w;

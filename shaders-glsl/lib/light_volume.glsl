@@ -4,6 +4,9 @@
 
 #include "generated/gpu_interface.glsl"
 
+// What single precision may take off a cosine as shading has it, of an axis and a direction that are unit vectors but for rounding.
+const float COSINE_ROUNDING = 5e-7;
+
 // The same bits wherever it is called: all ways of assignment test the same numbers.
 LightVolume volume_of_light(uint light)
 {

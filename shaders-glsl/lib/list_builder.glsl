@@ -1,6 +1,6 @@
 // Lists built in any order that still come out by ascending light.
 //
-// Lights are numbered in ascending order: by themselves (brute force, rectangles), or as candidates. Where `state.masked`, a list is
+// Lights are numbered in ascending order: by themselves (brute force, rectangles, meshes), or as candidates. Where `state.masked`, a list is
 // a row of bits, one a number, set while counting, and read off afterwards: no pair is tested twice. Bits of too many
 // clusters times lights do not fit: then lights are counted, written in any order, and each list is sorted.
 #pragma once
@@ -10,7 +10,7 @@
 // The light behind a number.
 uint light_of_number(uint number)
 {
-#if ASSIGN == ASSIGN_BRUTE || ASSIGN == ASSIGN_RECTANGLES
+#if ASSIGN == ASSIGN_BRUTE || ASSIGN == ASSIGN_RECTANGLES || ASSIGN == ASSIGN_RASTER
     return number;
 #else
     return read_candidate(number).light;

@@ -69,6 +69,8 @@ void publish_lists(uint lights, uint visible)
     publish_meeting(DispatchSize(lists.x, TREE_SPLIT, 1u), masked);
 #elif ASSIGN == ASSIGN_RECTANGLES
     publish_meeting(DispatchSize((lights + ASSIGN_WORKGROUP - 1u) / ASSIGN_WORKGROUP, rectangle_split(visible), 1u), masked);
+#elif ASSIGN == ASSIGN_RASTER
+    publish_meeting(DispatchSize((grid.dimensions.x * grid.dimensions.y + ASSIGN_WORKGROUP - 1u) / ASSIGN_WORKGROUP, lights, 1u), masked);
 #endif
 }
 
@@ -84,7 +86,7 @@ void publish_visible(uint total)
 #endif
     dispatches[DISPATCH_LISTS] = groups_for(visible, ASSIGN_WORKGROUP);
     dispatches[DISPATCH_SCAN] = groups_for(visible, SCAN_BLOCK);
-#if ASSIGN == ASSIGN_BRUTE || ASSIGN == ASSIGN_RECTANGLES
+#if ASSIGN == ASSIGN_BRUTE || ASSIGN == ASSIGN_RECTANGLES || ASSIGN == ASSIGN_RASTER
     publish_lists(grid.light_count, visible);
 #endif
 }

@@ -4,9 +4,6 @@
 #include "lib/cone.glsl"
 #include "lib/light_volume.glsl"
 
-// What single precision may take off a cosine as shading has it, of an axis and a direction that are unit vectors but for rounding.
-const float COSINE_ROUNDING = 5e-7;
-
 // What a spot light reaches, grown by what rounding may move it.
 Sector sector_of_light(uint light)
 {

@@ -3,19 +3,20 @@
 //
 //   light's frame, template ─> vertices in view space ─> eye inside? ─> depths in the tile ─> slices ─> shell_ranges
 //
-// All lights have the mesh of `mesh_vertices` and `mesh_triangles` (three 10-bit numbers a word).
+// MESH says of which lights: points (MESH_SPHERE) or spots. Their template is MESH_VERTICES of `mesh_vertices` from FIRST_VERTEX on, and
+// MESH_TRIANGLES of `mesh_triangles` from FIRST_TRIANGLE on (three 10-bit numbers a word).
 #version 460
 #include "lib/light_mesh.glsl"
 #include "lib/shell.glsl"
 
 layout(local_size_x = ASSIGN_WORKGROUP) in;
 
-shared vec3 vertices[MOST_MESH_VERTICES];
+shared vec3 vertices[MESH_VERTICES];
 shared uint eye_outside;
 
 Triangle read_triangle(uint triangle)
 {
-    uint word = mesh_triangles[triangle];
+    uint word = mesh_triangles[FIRST_TRIANGLE + triangle];
     Triangle read;
     for (uint corner = 0u; corner < 3u; ++corner)
         read.corners[corner] = vertices[word >> 10u * corner & 0x3FFu];
@@ -39,12 +40,15 @@ void main()
 {
     uint light = gl_WorkGroupID.y, thread = gl_LocalInvocationIndex;
     MeshFrame frame = light_frames[light];
-    for (uint vertex = thread; vertex < mesh_vertices.length(); vertex += ASSIGN_WORKGROUP)
-        vertices[vertex] = placed_vertex(frame, mesh_vertices[vertex]);
+    bool is_spot = frame.tip != vec3(0.0);
+    if (is_spot != (MESH == MESH_SPOT))
+        return;
+    for (uint vertex = thread; vertex < MESH_VERTICES; vertex += ASSIGN_WORKGROUP)
+        vertices[vertex] = placed_vertex(frame, mesh_vertices[FIRST_VERTEX + vertex]);
     if (thread == 0u)
         eye_outside = 0u;
     barrier();
-    uint triangles = mesh_triangles.length();
+    uint triangles = MESH_TRIANGLES;
     for (uint triangle = thread; triangle < triangles; triangle += ASSIGN_WORKGROUP)
         if (!eye_is_behind(read_triangle(triangle)))
             atomicOr(eye_outside, 1u);
@@ -53,7 +57,7 @@ void main()
     if (tile >= tiles)
         return;
     Tile sides = tile_at(uvec2(tile % grid.dimensions.x, tile / grid.dimensions.x));
-    if (misses_tile(sides, mesh_vertices.length()))
+    if (misses_tile(sides, MESH_VERTICES))
         triangles = 0u;
     uint range = eye_outside == 0u ? RANGE_FROM_THE_EYE : EMPTY_RANGE;
     for (uint triangle = 0u; triangle < triangles; ++triangle) {

@@ -92,6 +92,11 @@ impl ClusteringSizes {
         if self.assigner == Assigner::Rectangles { self.lights.into() } else { 0 }
     }
 
+    /// Lights whose meshes are rasterised.
+    pub(super) fn meshes(&self) -> u64 {
+        if self.assigner == Assigner::Raster { self.lights.into() } else { 0 }
+    }
+
     /// Clusters of which each has its place where it is visible.
     pub(super) fn cluster_places(&self) -> u64 {
         match (self.listed, self.compaction) {
@@ -287,6 +292,7 @@ impl ClusteringSizes {
         let boxes = self.boxes().div_ceil(u64::from(ASSIGN_WORKGROUP));
         for (what, workgroups, most) in [
             (format!("{lights} lights"), packets, most_x.min(most_y)),
+            (format!("{lights} lights that are rasterised"), self.meshes(), most_y),
             (format!("{visible} visible clusters"), groups, most_x),
             (format!("{} clusters", self.clusters), blocks.max(boxes), most_x),
             (

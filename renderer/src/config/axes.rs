@@ -151,7 +151,7 @@ pub static AXES: [Axis; 15] = [
         column: "assign",
         role: Role::Way,
         values: Values::Names,
-        applies: Method::assigns,
+        applies: |method| method.assigns() && !method.is_rasterised(),
         count: |config| config.assign.len(),
         split: |config| each(&config.assign, |assign| Config { assign: vec![assign], ..config.clone() }),
         called: |run| vec![names(&run.assign)],

@@ -38,6 +38,10 @@ impl Own for VolumeTest {
     fn own(method: &Method) -> Self {
         method.own_test().into()
     }
+
+    fn applies(method: &Method) -> bool {
+        method.assigns() && !method.is_rasterised()
+    }
 }
 
 impl Own for Clusters {
@@ -56,7 +60,7 @@ impl Own for Bounds {
     }
 
     fn applies(method: &Method) -> bool {
-        method.assigns() && !method.is_apart_from_views()
+        method.assigns() && !method.is_apart_from_views() && !method.is_rasterised()
     }
 }
 
@@ -163,7 +167,7 @@ impl Config {
 
     /// A way of assignment that finds lights by one test needs it.
     fn check_assign(&self) -> Result<(), String> {
-        let with_lists = self.methods.first().filter(|method| method.assigns());
+        let with_lists = self.methods.first().filter(|method| method.assigns() && !method.is_rasterised());
         let (Some(method), Some(assigner)) = (with_lists, self.assign.first().and_then(|way| way.fixed()))
         else {
             return Ok(());

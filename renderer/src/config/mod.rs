@@ -69,7 +69,8 @@ impl Assign {
 impl From<Assigner> for Assign {
     fn from(assigner: Assigner) -> Self {
         match assigner {
-            Assigner::Brute => Self::Brute,
+            // Rasterisation is its methods' own, whatever way is named.
+            Assigner::Brute | Assigner::Raster => Self::Brute,
             Assigner::Hierarchy => Self::Hierarchy,
             Assigner::Scatter => Self::Scatter,
             Assigner::Rectangles => Self::Rectangles,

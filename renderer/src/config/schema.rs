@@ -30,7 +30,7 @@ pub fn json_schema() -> Value {
 
 pub(super) fn methods(_: &mut SchemaGenerator) -> Schema {
     let sizes = |kind: &Kind| kind.sizes.iter().map(|name| Size::expression(name)).collect::<String>();
-    let pattern = |kind: &Kind| format!("{}{}", kind.name, sizes(kind));
+    let pattern = |kind: &Kind| format!("{}{}{}", kind.name, sizes(kind), kind.suffix);
     let patterns: Vec<String> = KINDS.iter().map(pattern).collect();
     let tuned: Vec<String> = KINDS.iter().map(|kind| kind.tuned().to_string()).collect();
     json_schema!({

@@ -1,14 +1,14 @@
 //! The lights on the device.
 //!
 //! ```text
-//! FrameLights ──(relative to the origin)──> staging of the slot ──(frame, where they are others)──> `lights`, `spots`
+//! FrameLights ──(relative to the origin)──> staging of the slot ──(frame, where they are others)──> `lights`, `spots`, `mesh_frames`
 //! ```
 
 use crate::Result;
 use crate::buffers::BufferName;
 use crate::clustering::{FRAME_SLOTS, SharedBuffer, make_buffer};
-use crate::geometry::VolumeKind;
-use crate::gpu_interface::{LightData, SpotData};
+use crate::geometry::{self, LightMesh, LightVolume, MeshKind, SphereLevel, SphericalSector, VolumeKind};
+use crate::gpu_interface::{LightData, MeshFrame, SpotData};
 use crate::lights::{ConeFalloff, FrameLights, Light, LightTally};
 use crate::pass::BufferCopy;
 use crate::passes::LightUpload;
@@ -20,14 +20,19 @@ use std::sync::Arc;
 /// Least bytes of a buffer.
 const LEAST_BYTES: u64 = 16;
 
+/// How fine the meshes around points are: the paper's.
+const LEVEL: SphereLevel = SphereLevel::V42;
+
 /// The lights of an engine, there and on their way.
 pub(super) struct DeviceLights {
     lights: Buffer,
     spots: Buffer,
+    meshes: Meshes,
     staging: [Staging; FRAME_SLOTS],
     data: Vec<LightData>,
     cones: Vec<SpotData>,
-    has_spots: bool,
+    frames: Vec<MeshFrame>,
+    room: Room,
     /// The revision and origin of the lights on the device.
     there: Option<(u64, DVec3)>,
     /// Whether the frame at hand brings others.
@@ -38,21 +43,71 @@ pub(super) struct DeviceLights {
 struct Staging {
     lights: Buffer,
     spots: Buffer,
+    frames: Buffer,
 }
 
-/// Bytes of lights and of their cones.
-fn bytes(tally: LightTally) -> [u64; 2] {
-    let count = u64::from(tally.count);
-    [
-        count * size_of::<LightData>() as u64,
-        if tally.spots { count * size_of::<SpotData>() as u64 } else { 0 },
-    ]
+/// The meshes around lights: those of lights, and their templates.
+struct Meshes {
+    frames: Buffer,
+    vertices: Buffer,
+    triangles: Buffer,
+}
+
+/// How many lights there is room for, and what of them is kept.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Room {
+    /// Most lights, and whether some have cones.
+    pub tally: LightTally,
+    /// Whether the meshes around them are rasterised.
+    pub meshes: bool,
+}
+
+impl Room {
+    /// Bytes of lights, of their cones, and of what places their meshes.
+    fn bytes(self) -> [u64; 3] {
+        let of =
+            |wanted: bool, size: usize| if wanted { u64::from(self.tally.count) * size as u64 } else { 0 };
+        [
+            of(true, size_of::<LightData>()),
+            of(self.tally.spots, size_of::<SpotData>()),
+            of(self.meshes, size_of::<MeshFrame>()),
+        ]
+    }
+
+    /// How many lights have what is kept where `wanted`.
+    fn count(self, wanted: bool) -> usize {
+        if wanted { self.tally.count as usize } else { 0 }
+    }
+}
+
+impl Meshes {
+    /// The templates, and room for what places them.
+    fn new(context: &Arc<Context>, frames: u64) -> Result<Self> {
+        let templates = [MeshKind::Sphere(LEVEL), MeshKind::Spot].map(LightMesh::new);
+        let vertices: Vec<[f32; 4]> = templates
+            .iter()
+            .flat_map(|mesh| &mesh.vertices)
+            .map(|vertex| vertex.as_vec4().to_array())
+            .collect();
+        let word = |&[a, b, c]: &[u16; 3]| u32::from(a) | u32::from(b) << 10 | u32::from(c) << 20;
+        let triangles: Vec<u32> = templates.iter().flat_map(|mesh| &mesh.triangles).map(word).collect();
+        let written = |name: BufferName, bytes: &[u8]| {
+            let buffer = make_buffer(context, name, bytes.len() as u64, Memory::Upload)?;
+            buffer.write(0, bytes);
+            Ok::<_, crate::Error>(buffer)
+        };
+        Ok(Self {
+            frames: make_buffer(context, BufferName::MeshFrames, frames, Memory::Device)?,
+            vertices: written(BufferName::MeshVertices, bytemuck::cast_slice(&vertices))?,
+            triangles: written(BufferName::MeshTriangles, bytemuck::cast_slice(&triangles))?,
+        })
+    }
 }
 
 impl DeviceLights {
-    /// Room for so many lights.
-    pub fn new(context: &Arc<Context>, tally: LightTally) -> Result<Self> {
-        let [lights, spots] = bytes(tally).map(|bytes| bytes.max(LEAST_BYTES));
+    /// Room for so many lights, and the templates of their meshes.
+    pub fn new(context: &Arc<Context>, room: Room) -> Result<Self> {
+        let [lights, spots, frames] = room.bytes().map(|bytes| bytes.max(LEAST_BYTES));
         let staged = |name, bytes| {
             Buffer::new(context, name, bytes, vk::BufferUsageFlags::TRANSFER_SRC, Memory::Upload)
         };
@@ -60,28 +115,38 @@ impl DeviceLights {
             Ok::<_, crate::Error>(Staging {
                 lights: staged("light staging", lights)?,
                 spots: staged("spot staging", spots)?,
+                frames: staged("mesh staging", frames)?,
             })
         };
         Ok(Self {
             lights: make_buffer(context, BufferName::Lights, lights, Memory::Device)?,
             spots: make_buffer(context, BufferName::Spots, spots, Memory::Device)?,
+            meshes: Meshes::new(context, frames)?,
             staging: [staging()?, staging()?],
-            data: Vec::with_capacity(tally.count as usize),
-            cones: Vec::with_capacity(if tally.spots { tally.count as usize } else { 0 }),
-            has_spots: tally.spots,
+            data: Vec::with_capacity(room.count(true)),
+            cones: Vec::with_capacity(room.count(room.tally.spots)),
+            frames: Vec::with_capacity(room.count(room.meshes)),
+            room,
             there: None,
             changed: false,
         })
     }
 
     /// What an engine with so many lights needs for them, bytes.
-    pub fn bytes(tally: LightTally) -> u64 {
-        (FRAME_SLOTS as u64 + 1) * bytes(tally).iter().sum::<u64>()
+    pub fn bytes(room: Room) -> u64 {
+        (FRAME_SLOTS as u64 + 1) * room.bytes().iter().sum::<u64>()
     }
 
     /// The buffers that shaders see.
-    pub fn shared(&self) -> [SharedBuffer<'_>; 2] {
-        [(BufferName::Lights, [&self.lights; FRAME_SLOTS]), (BufferName::Spots, [&self.spots; FRAME_SLOTS])]
+    pub fn shared(&self) -> [SharedBuffer<'_>; 5] {
+        let Meshes { frames, vertices, triangles } = &self.meshes;
+        [
+            (BufferName::Lights, [&self.lights; FRAME_SLOTS]),
+            (BufferName::Spots, [&self.spots; FRAME_SLOTS]),
+            (BufferName::MeshFrames, [frames; FRAME_SLOTS]),
+            (BufferName::MeshVertices, [vertices; FRAME_SLOTS]),
+            (BufferName::MeshTriangles, [triangles; FRAME_SLOTS]),
+        ]
     }
 
     /// Writes the lights relative to the origin, unless the device has them so already.
@@ -95,35 +160,45 @@ impl DeviceLights {
         self.data.clear();
         self.data.extend(lights.list.iter().map(|light| light_data(light, origin)));
         self.staging[slot].lights.write(0, &self.data);
-        if self.has_spots {
+        if self.room.tally.spots {
             self.cones.clear();
             self.cones.extend(lights.list.iter().map(spot_data));
             self.staging[slot].spots.write(0, &self.cones);
+        }
+        if self.room.meshes {
+            self.frames.clear();
+            self.frames.extend(lights.list.iter().map(|light| mesh_frame(light, origin)));
+            self.staging[slot].frames.write(0, &self.frames);
         }
     }
 
     /// What the frame in `slot` copies.
     pub fn upload(&self, slot: usize) -> LightUpload<'_> {
-        let Staging { lights, spots } = &self.staging[slot];
-        let size = |bytes: usize| if self.changed { bytes as u64 } else { 0 };
+        let Staging { lights, spots, frames } = &self.staging[slot];
+        let copy = |from, to, bytes: usize| BufferCopy {
+            from,
+            to,
+            offset: 0,
+            size: if self.changed { bytes as u64 } else { 0 },
+        };
         LightUpload {
             copies: [
-                BufferCopy {
-                    from: lights,
-                    to: &self.lights,
-                    offset: 0,
-                    size: size(size_of_val(self.data.as_slice())),
-                },
-                BufferCopy {
-                    from: spots,
-                    to: &self.spots,
-                    offset: 0,
-                    size: size(size_of_val(self.cones.as_slice())),
-                },
+                copy(lights, &self.lights, size_of_val(self.data.as_slice())),
+                copy(spots, &self.spots, size_of_val(self.cones.as_slice())),
+                copy(frames, &self.meshes.frames, size_of_val(self.frames.as_slice())),
             ],
             count: self.data.len() as u32,
         }
     }
+}
+
+/// What places the mesh around a light in a frame with this origin.
+fn mesh_frame(light: &Light, origin: DVec3) -> MeshFrame {
+    let volume = match light.sector() {
+        None => LightVolume::sphere(light.place() - origin, light.r1.into()),
+        Some(sector) => LightVolume::sector(SphericalSector { apex: sector.apex - origin, ..sector }),
+    };
+    (&geometry::MeshFrame::of(&volume, LEVEL).1).into()
 }
 
 /// A light as shaders read it in a frame with this origin.

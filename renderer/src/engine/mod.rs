@@ -123,7 +123,7 @@ impl Engine {
             pipeline: run.pipeline[0],
             resolution: run.resolution,
             timed: timed(run.scopes),
-            lights: DeviceLights::new(&session.context, mode.lights)?,
+            lights: DeviceLights::new(&session.context, chosen.room(&mode))?,
             pipelines: session.store.pipelines(&chosen.variant(run, &mode))?,
             largest,
             sizes,
@@ -162,7 +162,7 @@ impl Engine {
         let largest = chosen.largest(largest, session.scene.models());
         let clusterings = chosen.method.kind().sharing.clusterings(session.targets.len()) as u64;
         let slots = FRAME_SLOTS as u64;
-        clusterings * chosen.sizes(run, largest, mode).bytes(slots) + DeviceLights::bytes(mode.lights)
+        clusterings * chosen.sizes(run, largest, mode).bytes(slots) + DeviceLights::bytes(chosen.room(mode))
     }
 
     /// What each structure takes, and what frames need of it by their counts.
@@ -209,12 +209,15 @@ impl Engine {
             octree.lost();
         }
         let slots = &session.frame_slots;
-        let [lights, spots] = self.lights.shared();
-        let shared: [SharedBuffer; 9] = [
+        let [lights, spots, mesh_frames, mesh_vertices, mesh_triangles] = self.lights.shared();
+        let shared: [SharedBuffer; 12] = [
             (BufferName::Views, slots.each_ref().map(|slot| &slot.views)),
             (BufferName::DrawOrder, slots.each_ref().map(|slot| &slot.draw_order)),
             lights,
             spots,
+            mesh_frames,
+            mesh_vertices,
+            mesh_triangles,
             (BufferName::Instances, [&session.scene.instances; FRAME_SLOTS]),
             (BufferName::ModelBoxes, [&session.scene.model_boxes; FRAME_SLOTS]),
             (BufferName::Drawables, [&session.scene.drawables; FRAME_SLOTS]),

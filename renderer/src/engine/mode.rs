@@ -1,6 +1,7 @@
 //! What an engine is made for, and what follows from it: shader variants and buffer sizes.
 
 use super::FramePlan;
+use super::lights::Room;
 use crate::assign::{
     Assigner, ClusterBounds, Clusters, Compaction, ListStore, check_one_pass, check_sorted_slices,
     check_sorted_tiles,
@@ -105,7 +106,11 @@ impl Chosen {
         let sorted = method.tile_pixels(run.resolution).filter(|_| compaction == Compaction::Sort);
         Self {
             method,
-            assigner: if assigns { mode.assigner } else { Assigner::Brute },
+            assigner: match (assigns, method.is_rasterised()) {
+                (true, true) => Assigner::Raster,
+                (true, false) => mode.assigner,
+                (false, _) => Assigner::Brute,
+            },
             clusters,
             compaction,
             sorted_tile: sorted.map_or(0, |pixels| pixels as u32),
@@ -150,6 +155,11 @@ impl Chosen {
             "method {}: assignment by {} serves up to {MOST_ACCELERATED} models, and the scene has {models}: use --assign brute",
             self.method, self.assigner
         )))
+    }
+
+    /// What is kept of lights.
+    pub fn room(&self, mode: &Mode) -> Room {
+        Room { tally: mode.lights, meshes: self.assigner == Assigner::Raster }
     }
 
     /// What is asked of cones; nothing where no light has one.

@@ -104,6 +104,7 @@ mod cull;
 mod list_stores;
 mod list_twins;
 mod octree;
+mod raster;
 mod rectangles;
 mod sort_tiles;
 mod sphere_tests;

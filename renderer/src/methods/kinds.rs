@@ -29,6 +29,8 @@ pub struct Kind {
     pub sizes: &'static [&'static str],
     /// The sizes that its paper finds best, or that are usual.
     pub tuned: &'static [f64],
+    /// What the names of its methods have behind the sizes.
+    pub suffix: &'static str,
     /// Name of the kind in figures.
     pub title: &'static str,
     /// What the kind does, a line for help and README.
@@ -47,6 +49,7 @@ const PERSPECTIVE: Kind = Kind {
     name: "",
     sizes: &[],
     tuned: &[],
+    suffix: "",
     title: "",
     about: "",
     sharing: Sharing::Indi,
@@ -57,7 +60,7 @@ const PERSPECTIVE: Kind = Kind {
 
 /// Every kind of method. All serve transparent geometry, all views in stereo, and any number of samples (models: where fragments
 /// run for each).
-pub static KINDS: [Kind; 20] = [
+pub static KINDS: [Kind; 22] = [
     Kind {
         name: "indi-persp",
         sizes: &["PIXELS"],
@@ -218,9 +221,32 @@ pub static KINDS: [Kind; 20] = [
         ..PERSPECTIVE
     },
     Kind {
+        name: "raster",
+        suffix: "-e",
+        sizes: &["COLUMNS", "ROWS", SLICES],
+        tuned: &[24.0, 12.0, 64.0],
+        title: "Raster E",
+        about: "so many tiles and slices, these geometric behind the first; all clusters that the mesh around a light meets have it",
+        groups: Groups::Cells(CellShape::BoxedFrustum),
+        make: |sizes| rasterised(SliceLaw::SecondPlane { metres: SECOND_PLANE }, sizes),
+        ..PERSPECTIVE
+    },
+    Kind {
+        name: "raster",
+        suffix: "-l",
+        sizes: &["COLUMNS", "ROWS", SLICES],
+        tuned: &[24.0, 12.0, 128.0],
+        title: "Raster L",
+        about: "the same, in slices of equal depth",
+        groups: Groups::Cells(CellShape::BoxedFrustum),
+        make: |sizes| rasterised(SliceLaw::Linear, sizes),
+        ..PERSPECTIVE
+    },
+    Kind {
         name: "g",
         sizes: &["CELLS"],
         tuned: &[20.0],
+        suffix: "",
         title: "G",
         about: "one grid of so many cells an axis in a box of the world, whatever the views",
         sharing: Sharing::Encl,
@@ -232,6 +258,7 @@ pub static KINDS: [Kind; 20] = [
         name: "m",
         sizes: &[],
         tuned: &[],
+        suffix: "",
         title: "M",
         about: "a list for each model, as it is drawn, whatever the views",
         sharing: Sharing::Encl,
@@ -243,6 +270,7 @@ pub static KINDS: [Kind; 20] = [
         name: "hashed",
         sizes: &[NODE, DEPTH],
         tuned: &[0.5, 3.0],
+        suffix: "",
         title: "Hashed",
         about: "an octree over the lights, its leaves found by perfect spatial hashes from a depth on; the size of its smallest \
                 nodes is in radii of the smallest light, or in metres with `m` behind it",
@@ -262,6 +290,7 @@ pub static KINDS: [Kind; 20] = [
         name: "all-lights",
         sizes: &[],
         tuned: &[],
+        suffix: "",
         title: "All lights",
         about: "every light for every fragment: the truth",
         sharing: Sharing::Encl,
@@ -270,6 +299,16 @@ pub static KINDS: [Kind; 20] = [
         make: |_| Method::AllLights,
     },
 ];
+
+/// Depth of the second plane of the exponential law, metres.
+const SECOND_PLANE: f64 = 5.0;
+
+/// Tiles and slices, all with lists, to which meshes around lights are rasterised (Örtegren and Persson).
+fn rasterised(slices: SliceLaw, sizes: &Sizes) -> Method {
+    let space = Space::Counted { columns: sizes[0], rows: sizes[1], slices: sizes[2] };
+    let grid = GridMethod::new(Sharing::Indi, space);
+    Method::Grid(GridMethod { clusters: Clusters::All, slices, rasterised: true, ..grid })
+}
 
 fn displ(sharing: Sharing, sizes: &Sizes) -> Method {
     Method::grid(sharing, Space::Displ { pixels: sizes[0], displacement: sizes[1] })
@@ -323,7 +362,7 @@ impl Kind {
 
     /// The name with what its numbers stand for: `indi-displ-PIXELS-METRES`.
     pub fn pattern(&self) -> String {
-        [self.name].iter().chain(self.sizes).copied().collect::<Vec<_>>().join("-")
+        [self.name].iter().chain(self.sizes).copied().collect::<Vec<_>>().join("-") + self.suffix
     }
 }
 
@@ -354,6 +393,11 @@ impl Method {
         self.kind().cells().is_some()
     }
 
+    /// Whether it makes its lists in a way of its own, so that neither ways of assignment nor tests bear on it.
+    pub fn is_rasterised(&self) -> bool {
+        matches!(self, Self::Grid(GridMethod { rasterised: true, .. }))
+    }
+
     /// Whether its lists are those of an octree over the lights.
     pub fn has_octree(&self) -> bool {
         self.kind().groups == Groups::Leaves
@@ -380,7 +424,7 @@ mod tests {
     fn every_kind_is_its_own() {
         for kind in &KINDS {
             let method = kind.tuned();
-            assert_eq!(method.kind().name, kind.name);
+            assert_eq!((method.kind().name, method.kind().suffix), (kind.name, kind.suffix));
             let sizes: Vec<f64> = method.sizes().iter().map(|size| size.number).collect();
             assert_eq!((kind.sizes.len(), sizes.as_slice()), (kind.tuned.len(), kind.tuned));
             assert!(kind.takes(&method.sizes()));

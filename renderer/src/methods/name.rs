@@ -11,7 +11,8 @@ use std::str::FromStr;
 impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.kind().name)?;
-        self.sizes().iter().try_for_each(|size| write!(f, "-{size}"))
+        self.sizes().iter().try_for_each(|size| write!(f, "-{size}"))?;
+        f.write_str(self.kind().suffix)
     }
 }
 
@@ -32,7 +33,7 @@ impl FromStr for Method {
 
 fn parse(name: &str) -> Option<Method> {
     KINDS.iter().find_map(|kind| {
-        let rest = name.strip_prefix(kind.name)?;
+        let rest = name.strip_prefix(kind.name)?.strip_suffix(kind.suffix)?;
         let mut parts = rest.split('-');
         let sizes: Option<Vec<Size>> = parts.next()?.is_empty().then(|| parts.map(Size::parse).collect())?;
         sizes.filter(|sizes| kind.takes(sizes)).map(|sizes| kind.with_sizes(&sizes))
@@ -47,7 +48,7 @@ fn nearest(name: &str) -> String {
     let word = words.join("-").to_ascii_lowercase();
     let distance = |kind: &&Kind| strsim::damerau_levenshtein(kind.name, &word);
     let kind = KINDS.iter().min_by_key(distance).unwrap_or(&KINDS[0]);
-    let own_sizes = format!("{}-{}", kind.name, sizes.join("-"));
+    let own_sizes = format!("{}-{}{}", kind.name, sizes.join("-"), kind.suffix);
     parse(&own_sizes).unwrap_or_else(|| kind.tuned()).to_string()
 }
 
@@ -70,6 +71,8 @@ mod tests {
             "hashed-0.5-3",
             "hashed-2m-0",
             "ortiz-16-9-24",
+            "raster-24-12-32-e",
+            "raster-48-24-128-l",
             "tiled-mm-32",
             "clustered-mm-12.5",
             "all-lights",

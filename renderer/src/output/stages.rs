@@ -13,20 +13,25 @@ pub struct StageMinima {
 pub const FRAME: &str = "frame";
 
 /// What it takes to know the lengths of the light lists, from lights as the frame has them.
-pub const COUNTING: [&str; 6] = [
+pub const COUNTING: [&str; 10] = [
     "frame/cluster/transform_lights",
     "frame/cluster/cull_lights",
     "frame/cluster/build_hierarchy",
     "frame/cluster/count_lights",
     "frame/cluster/light_rectangles",
     "frame/cluster/count_rectangles",
+    "frame/cluster/mesh_frames",
+    "frame/cluster/shell_points",
+    "frame/cluster/shell_spots",
+    "frame/cluster/fill_clusters",
 ];
 
 /// Where each list begins.
 const OFFSETS: &str = "frame/cluster/light_offsets";
 
 /// Writing of the light lists.
-pub const ASSIGNING: [&str; 2] = ["frame/cluster/assign_lights", "frame/cluster/fill_rectangles"];
+pub const ASSIGNING: [&str; 3] =
+    ["frame/cluster/assign_lights", "frame/cluster/fill_rectangles", "frame/cluster/write_lists"];
 
 /// What frames do only where that which it is made of has changed.
 const ON_CHANGE: &str = "frame/cluster/build_boxes";

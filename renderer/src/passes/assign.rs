@@ -5,10 +5,12 @@
 //! brute       light_volumes ──────────────────────────────> meet ┐
 //! hierarchy   light_nodes ────────────────────────────────> meet ┼> light_masks ─> list_lengths, then light_indices
 //! scatter     candidates ─> groups ─> packets, group_lights ─> meet ┤
-//! rectangles  light_rectangles, cluster_bits ─────────────> meet ┘
+//! rectangles  light_rectangles, cluster_bits ─────────────> meet ┤
+//! raster      shell_ranges ───────────────────────────────> meet ┘
 //! ```
 //!
-//! Rectangles call the stages `light_rectangles`, `count_rectangles` and `fill_rectangles` (Tegelaers section 5.2).
+//! Rectangles call the stages `light_rectangles`, `count_rectangles` and `fill_rectangles` (Tegelaers section 5.2), meshes
+//! `fill_clusters` and `write_lists`.
 //!
 //! Where the masks have no room the device sizes the dispatches otherwise: pairs are found twice, counted first and then
 //! written, and the lists are sorted. Lists that are not by offsets are empty then, which the host refuses.
@@ -62,6 +64,7 @@ fn stages(assigner: Assigner) -> [&'static str; 2] {
     match assigner {
         Assigner::Brute | Assigner::Hierarchy | Assigner::Scatter => ["count_lights", "assign_lights"],
         Assigner::Rectangles => ["count_rectangles", "fill_rectangles"],
+        Assigner::Raster => ["fill_clusters", "write_lists"],
     }
 }
 
@@ -78,7 +81,7 @@ pub fn count_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
         let writes = set(&[B::LightMasks, B::ListLengths, B::Counters]);
         meet(r, frame, visible, (&pipelines.meet[0], DISPATCH_MEET), (reads, writes));
         // The others count a packet's lights as they set their bits.
-        if matches!(frame.assigner, Assigner::Hierarchy | Assigner::Rectangles) {
+        if matches!(frame.assigner, Assigner::Hierarchy | Assigner::Rectangles | Assigner::Raster) {
             let (reads, writes) = (set(&[B::State, B::LightMasks]), set(&[B::ListLengths]));
             indirect(r, frame, visible, (&pipelines.read_masks[0], DISPATCH_MASKED), (reads, writes));
         }
@@ -96,7 +99,7 @@ pub fn assign_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) 
         (ListStore::Fixed(_) | ListStore::Capped(_), Assigner::Brute) => collect(r, frame, visible),
         (
             ListStore::Fixed(_) | ListStore::Capped(_),
-            Assigner::Hierarchy | Assigner::Scatter | Assigner::Rectangles,
+            Assigner::Hierarchy | Assigner::Scatter | Assigner::Rectangles | Assigner::Raster,
         ) => keep_lists(r, frame, visible),
     });
     LightLists::of(visible)
@@ -162,6 +165,7 @@ fn meet(
         Assigner::Brute => cells | set(&[B::LightVolumes]),
         Assigner::Hierarchy => cells | set(&[B::TreeVolumes, B::TreeLights, B::LightNodes]),
         Assigner::Scatter => cells | set(&[B::LightVolumes, B::Groups, B::PacketGroups, B::GroupLights]),
+        Assigner::Raster => frame.places() | set(&[B::ShellRanges]),
         Assigner::Rectangles => frame.places() | set(&[B::LightRectangles]) | measured(frame),
     };
     let reads = reads | met;

@@ -10,8 +10,8 @@ pub const READ: BufferSet = set(&[B::Lights, B::Spots]);
 
 /// The lights of a frame, as the host wrote them and on the device.
 pub struct LightUpload<'a> {
-    /// Copies of the lights and of their cones; nothing is copied that is there already.
-    pub copies: [BufferCopy<'a>; 2],
+    /// Copies of the lights, of their cones, and of what places their meshes; nothing is copied that is there already.
+    pub copies: [BufferCopy<'a>; 3],
     /// How many lights there are.
     pub count: u32,
 }

@@ -27,6 +27,7 @@ pub mod pixel_clusters;
 pub mod pixel_maps;
 mod pixel_models;
 pub mod probes;
+pub mod raster;
 pub mod readback;
 pub mod resolve;
 pub mod scan;

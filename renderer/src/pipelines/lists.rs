@@ -3,6 +3,7 @@
 use super::{Defines, PipelineStore, ScanPipelines, Variant, Visit, VisitPipelines};
 use crate::Result;
 use crate::assign::{Assigner, Compaction, ListStore, sorted_keys, sorted_threads};
+use crate::geometry::{LightMesh, MeshKind, SphereLevel};
 use crate::layouts::Pipeline;
 use std::sync::Arc;
 
@@ -79,6 +80,26 @@ impl Maker<'_> {
         wanted.then(|| self.tests("assign/light_rectangles.comp")).transpose()
     }
 
+    /// Finding where meshes around lights lie, where these are rasterised.
+    fn raster(&mut self) -> Result<Option<RasterPipelines>> {
+        if self.variant.assigner != Assigner::Raster {
+            return Ok(None);
+        }
+        let frames = self.lists("raster/mesh_frames.comp")?;
+        let (mut first_vertex, mut first_triangle, mut shells) = (0, 0, vec![]);
+        let kinds = [("MESH_SPHERE", MeshKind::Sphere(SphereLevel::V42)), ("MESH_SPOT", MeshKind::Spot)];
+        for (name, kind) in kinds.into_iter().take(if self.variant.spots { 2 } else { 1 }) {
+            let LightMesh { vertices, triangles } = LightMesh::new(kind);
+            let defines = self.defines.with("MESH", name).with("MESH_VERTICES", vertices.len());
+            let defines = defines.with("MESH_TRIANGLES", triangles.len());
+            let defines = defines.with("FIRST_VERTEX", first_vertex).with("FIRST_TRIANGLE", first_triangle);
+            shells.push(self.store.compute("raster/shell.comp", &defines)?);
+            first_vertex += vertices.len();
+            first_triangle += triangles.len();
+        }
+        Ok(Some(RasterPipelines { frames, shells }))
+    }
+
     fn scan(&mut self, items: &str) -> Result<ScanPipelines> {
         self.store.scan(&self.defines, items)
     }
@@ -86,6 +107,14 @@ impl Maker<'_> {
     fn visit(&mut self, visit: Visit) -> Result<VisitPipelines> {
         self.store.visit(self.variant, visit)
     }
+}
+
+/// Finds the slices of tiles in which meshes around lights lie.
+pub struct RasterPipelines {
+    /// Places the meshes in clustering space.
+    pub frames: Arc<Pipeline>,
+    /// The slices of points' meshes, then of spots' where there are such.
+    pub shells: Vec<Arc<Pipeline>>,
 }
 
 /// Sorts the samples of tiles by their slices, and lists the clusters that hold some.
@@ -145,6 +174,8 @@ pipelines! {
         transform_lights: Arc<Pipeline> = make.lists("assign/transform_lights.comp");
         /// The cells in which each light is seen.
         light_rectangles: Option<Arc<Pipeline>> = make.light_rectangles();
+        /// Where the meshes around lights lie.
+        raster: Option<RasterPipelines> = make.raster();
         /// Empties what counting fills in any order.
         clear_lists: Arc<Pipeline> = make.lists("assign/clear_lists.comp");
         /// Pairs of light and cluster that meet: to bits or lengths of lists, and once more, to the lists, in any order.
@@ -200,6 +231,11 @@ impl ClusteredPipelines {
         self.light_rectangles.as_ref().expect("lights have rectangles where these are how they are assigned")
     }
 
+    /// Finds where meshes around lights lie; only its pass asks.
+    pub fn raster(&self) -> &RasterPipelines {
+        self.raster.as_ref().expect("meshes are rasterised where that is how lights are assigned")
+    }
+
     /// Takes lights to lists in one pass; only that asks.
     pub fn collect(&self) -> &Pipeline {
         self.collect.as_ref().expect("one pass makes lists by brute force that no lengths place")
@@ -213,5 +249,6 @@ fn meet(assigner: Assigner) -> &'static str {
         Assigner::Hierarchy => "assign/hierarchy.comp",
         Assigner::Scatter => "assign/scatter.comp",
         Assigner::Rectangles => "assign/rectangles.comp",
+        Assigner::Raster => "raster/fill.comp",
     }
 }

@@ -217,6 +217,7 @@ impl Variant {
             Assigner::Hierarchy => "ASSIGN_HIERARCHY",
             Assigner::Scatter => "ASSIGN_SCATTER",
             Assigner::Rectangles => "ASSIGN_RECTANGLES",
+            Assigner::Raster => "ASSIGN_RASTER",
         };
         self.defines().with("ASSIGN", assigner)
     }

@@ -18,6 +18,9 @@ pub fn assigner(
     if !run.method.assigns() {
         return Ok(Assigner::Brute);
     }
+    if run.method.is_rasterised() {
+        return Ok(Assigner::Raster);
+    }
     match run.assign.fixed() {
         Some(assigner) => Ok(assigner),
         None => Ok(cheapest(&count_once(inputs, session, (run, plans))?)),

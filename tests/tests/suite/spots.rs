@@ -36,7 +36,16 @@ fn every_method_shades_spots_among_points_as_all_lights_do() {
 
 #[test]
 fn every_way_of_assignment_shades_spots_in_both_eyes_with_four_samples() {
-    let names = ["all-lights", "indi-persp-32", "encl-ortho-4", "encl-displ-64-32", "sc-e-48-40", "g-20"];
+    let names = [
+        "all-lights",
+        "indi-persp-32",
+        "encl-ortho-4",
+        "encl-displ-64-32",
+        "sc-e-48-40",
+        "g-20",
+        "raster-16-9-24-e",
+        "raster-12-6-32-l",
+    ];
     let assign = vec![Assign::Brute, Assign::Hierarchy, Assign::Scatter];
     let runs = run(Config { methods: methods(&names), assign, ..config("bistro-vive", 4, 1.0) });
     assert_equal_the_truth(&runs, Marking::Depth);

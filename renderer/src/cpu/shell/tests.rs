@@ -247,6 +247,27 @@ fn lights_around_the_eye_begin_in_the_first_slice() {
     assert_eq!(before_near, [None; 9]);
 }
 
+/// Rounding has an eye in the plane of a triangle on either side of it; outside, only the far side of the light would be found.
+#[test]
+fn an_eye_on_the_side_of_a_mesh_is_inside() {
+    let mesh = LightMesh::sphere(SphereLevel::V42);
+    for [a, b, c] in
+        mesh.triangles.iter().map(|triangle| triangle.map(|at| mesh.vertices[usize::from(at)].truncate()))
+    {
+        let normal = (b - a).cross(c - a).normalize();
+        for radius in [0.37, 5.1, 77.0] {
+            let around = LightVolume::sphere(-normal * radius, radius);
+            let frame = (&MeshFrame::of(&around, SphereLevel::V42).1).into();
+            let vertices: Vec<Vec3> =
+                mesh.vertices.iter().map(|vertex| placed(&frame, vertex.as_vec4())).collect();
+            assert!(
+                ViewMesh { vertices: &vertices, triangles: &mesh.triangles }.eye_is_inside(),
+                "{radius} {normal}"
+            );
+        }
+    }
+}
+
 #[test]
 fn lights_that_are_not_seen_are_nowhere() {
     for volume in [

@@ -148,6 +148,8 @@ pub struct GridMethod {
     pub test: SphereTest,
     /// Where slices begin where the configuration leaves it to the name.
     pub slices: SliceLaw,
+    /// Whether lists are made by rasterising the meshes around lights, not by testing these.
+    pub rasterised: bool,
 }
 
 impl GridMethod {
@@ -159,7 +161,7 @@ impl GridMethod {
             CellShape::Frustum | CellShape::Model => SphereTest::HALF_SPACES,
         };
         let (clusters, bounds) = (Clusters::Visible, Bounds::Implicit);
-        Self { sharing, space, clusters, bounds, test, slices: SliceLaw::Geometric }
+        Self { sharing, space, clusters, bounds, test, slices: SliceLaw::Geometric, rasterised: false }
     }
 
     /// Side of the tiles that a view's screen of so many pixels is divided into, where there are such.
@@ -176,9 +178,9 @@ impl GridMethod {
 
     /// Whether the two differ in their sizes alone.
     pub fn is_like(&self, other: &Self) -> bool {
-        let Self { sharing, space, clusters, bounds, test, slices } = *self;
+        let Self { sharing, space, clusters, bounds, test, slices, rasterised } = *self;
         (sharing, clusters, bounds) == (other.sharing, other.clusters, other.bounds)
-            && (test, slices) == (other.test, other.slices)
+            && (test, slices, rasterised) == (other.test, other.slices, other.rasterised)
             && discriminant(&space) == discriminant(&other.space)
     }
 }

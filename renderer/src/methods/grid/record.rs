@@ -13,7 +13,7 @@ use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction};
 use crate::pass::Recorder;
 use crate::passes::{
     Depth, Frame, LightLists, Lights, VisibleClusters, assign, bounds, build_boxes, cull_lights, depth,
-    hierarchy, list_clusters, mark, scan, sort_tiles, take_places,
+    hierarchy, list_clusters, mark, raster, scan, sort_tiles, take_places,
 };
 
 /// Records all clusterings; the depth that comes back is what is there with what marking needed beside.
@@ -87,6 +87,7 @@ pub fn light_lists(r: &mut Recorder, frame: &Frame, lights: Lights, visible: Vis
     match frame.assigner {
         Assigner::Brute => assign::transform_lights(r, frame, lights, visible),
         Assigner::Rectangles => assign::light_rectangles(r, frame, lights, visible),
+        Assigner::Raster => raster::record(r, frame, lights, visible),
         Assigner::Hierarchy => {
             cull_lights::cull_lights(r, frame, lights, visible);
             hierarchy::build_hierarchy(r, frame, visible);

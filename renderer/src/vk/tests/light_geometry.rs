@@ -263,7 +263,16 @@ fn device_shell(
 ) -> Vec<u32> {
     let generated = vec![("generated/gpu_interface.glsl".to_owned(), buffers())];
     let library = ShaderLibrary::new(None, generated).unwrap().with_cache(None);
-    let defines = [("SPACE", "SPACE_PERSPECTIVE".into()), ("SLICES", "SLICES_GEOMETRIC".into())];
+    let is_spot = frames[0].tip != [0.0; 3];
+    let defines = [
+        ("SPACE", "SPACE_PERSPECTIVE".into()),
+        ("SLICES", "SLICES_GEOMETRIC".into()),
+        ("MESH", if is_spot { "MESH_SPOT" } else { "MESH_SPHERE" }.into()),
+        ("MESH_VERTICES", mesh.vertices.len().to_string()),
+        ("MESH_TRIANGLES", mesh.triangles.len().to_string()),
+        ("FIRST_VERTEX", "0".into()),
+        ("FIRST_TRIANGLE", "0".into()),
+    ];
     let words = library.compile("raster/shell.comp", &defines).unwrap();
     let vertices: Vec<[f32; 4]> = mesh.vertices.iter().map(|vertex| vertex.as_vec4().to_array()).collect();
     let triangle = |&[a, b, c]: &[u16; 3]| u32::from(a) | u32::from(b) << 10 | u32::from(c) << 20;
