@@ -7,7 +7,7 @@ use crate::lights::Spot;
 use crate::selftest::cases::noise;
 
 /// Lights of which two in three are spots, narrow and wide, in all directions.
-fn mixed(count: u32) -> Vec<Light> {
+pub(super) fn mixed(count: u32) -> Vec<Light> {
     let mut random = noise(77);
     let mut unit = move || -> f32 { (random() % 65_536) as f32 / 65_536.0 };
     let lights = random_lights(count, 21, 14.0, |u| 1.0 + 7.0 * u);
