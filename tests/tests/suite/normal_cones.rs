@@ -92,7 +92,7 @@ fn cut_out_and_mirrored() {
 /// Veils are transparent, and hidden surfaces shaded.
 #[test]
 fn seen_through_and_drawn_over() {
-    check(Config { shading: vec![Shading::Overdraw], ..config("hall", "hall", 1, &["sc-e-48-40"]) });
+    check(Config { shading: vec![Shading::Overdraw], ..config("hall", "hall", 1, &["clustered-mm-4"]) });
 }
 
 #[test]
