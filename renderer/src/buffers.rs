@@ -136,6 +136,11 @@ buffers! {
         .storage("uint cluster_bounds[]")
         .sized(|s| bytes::<u32>(s.bound_words()))
         .serving(Purpose::Grouping);
+    /// Which ways the samples of each visible cluster face, a bit a cone of normals, where lights behind them are left out.
+    ClusterCones = buffer("cluster_cones", Owner::Clustering)
+        .storage("uint cluster_cones[]")
+        .sized(|s| bytes::<u32>(s.cone_words()))
+        .serving(Purpose::Grouping);
     /// The box around each cell of the grid, where that is tested against lights; it stays until the projection changes.
     ClusterBoxes = buffer("cluster_boxes", Owner::Clustering)
         .storage("ClusterBox cluster_boxes[]")

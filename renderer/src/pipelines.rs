@@ -95,6 +95,7 @@ pub struct Pipelines {
     clustered: Option<ClusteredPipelines>,
     count_fragments: Option<VisitPipelines>,
     bounds: Option<VisitPipelines>,
+    cones: Option<[BTreeMap<TextureSet, Arc<Pipeline>>; 3]>,
     build_boxes: Option<Arc<Pipeline>>,
     accelerated: Option<AcceleratedPipelines>,
     all: Vec<Arc<Pipeline>>,
@@ -131,6 +132,11 @@ impl Pipelines {
     /// Measures the bounds of visible clusters; only its pass asks.
     pub fn bounds(&self) -> &VisitPipelines {
         self.bounds.as_ref().expect("stage bounds runs where bounds are measured")
+    }
+
+    /// Gather which way fragments face, by [`SurfaceKind`] and by the textures of the material; only their pass asks.
+    pub fn cones(&self) -> &[BTreeMap<TextureSet, Arc<Pipeline>>; 3] {
+        self.cones.as_ref().expect("stage cones runs where normals are told apart")
     }
 
     /// Makes the boxes around cells; `None` where they are not tested.
@@ -205,6 +211,7 @@ impl PipelineStore {
             ClusterBounds::Cell => None,
             ClusterBounds::Depth | ClusterBounds::Box => Some(self.visit(variant, Visit::Bounds)?),
         };
+        let cones = variant.normal_cones.are_on().then(|| self.cones(variant)).transpose()?;
         let build_boxes = match variant.is_boxed() {
             true => Some(self.compute("cluster/build_boxes.comp", &variant.test_defines())?),
             false => None,
@@ -236,6 +243,7 @@ impl PipelineStore {
             clustered,
             count_fragments,
             bounds,
+            cones,
             build_boxes,
             accelerated,
             all: vec![],
@@ -265,6 +273,19 @@ impl PipelineStore {
             self.graphics(variant, Some("shade/forward.frag"), Output::Shades(kind, sampled))
         };
         sets.into_iter().map(|set| Ok((set, of(set)?))).collect()
+    }
+
+    fn cones(&mut self, variant: &Variant) -> Result<[BTreeMap<TextureSet, Arc<Pipeline>>; 3]> {
+        let mut of = |kind| {
+            let sets = self.texture_sets[kind as usize].clone();
+            let mut of = |set| {
+                let output = Output::Faces(kind, variant.sampled_for_normals(kind, set));
+                self.graphics(variant, Some("cluster/mark_cones.frag"), output)
+            };
+            sets.into_iter().map(|set| Ok((set, of(set)?))).collect::<Result<_>>()
+        };
+        let [opaque, masked, transparent] = SurfaceKind::ALL;
+        Ok([of(opaque)?, of(masked)?, of(transparent)?])
     }
 
     fn seen(&mut self, variant: &Variant) -> Result<[Arc<Pipeline>; 2]> {

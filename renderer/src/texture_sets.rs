@@ -14,6 +14,9 @@ impl TextureSet {
     /// The set of the base colour alone.
     pub const BASE_COLOR: Self = Self(1 << TextureSlot::BaseColor as u32);
 
+    /// The set of the normal map alone.
+    pub const NORMAL: Self = Self(1 << TextureSlot::Normal as u32);
+
     /// Textures of `material` that change how it looks.
     pub fn of(material: &Material) -> Self {
         let slots = material.textures.iter().enumerate().filter(|(_, texture)| texture.is_some());

@@ -51,7 +51,7 @@ void main()
             [[unroll]] for (uint i = 0u; i < AT_ONCE; ++i) {
                 if (met != uvec2(0u)) {
                     uint place = take_lowest(met);
-                    if (!is_left_out(cell, packet_volume(place)))
+                    if (!is_left_out(visible, cell, packet_volume(place)))
                         take_light(visible, found++, first + place);
                 }
             }

@@ -38,7 +38,7 @@ void main()
             uint end = min(first + TREE_WIDTH, lights_there);
             // A leaf is no loop: lavapipe ends a shader's loops after 65 535 turns of all of them.
             [[unroll]] for (uint i = 0u; i < TREE_WIDTH; ++i)
-                if (first + i < end && meets(cell, read_tree_volume(first + i)))
+                if (first + i < end && meets(visible, cell, read_tree_volume(first + i)))
                     add_light(visible, tree_lights[first + i]);
             tests += end - first;
         }

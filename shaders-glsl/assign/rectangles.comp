@@ -24,7 +24,7 @@ void take_light(uint visible, uint light)
         return;
     ++tests;
 #if BOUNDS != BOUNDS_CELL || CONES != CONES_UNASKED
-    if (!holds_samples(visible) || !meets(bounds_of_visible(visible), volume_of_light(light)))
+    if (!holds_samples(visible) || !meets(visible, bounds_of_visible(visible), volume_of_light(light)))
         return;
 #endif
     add_light(visible, light);

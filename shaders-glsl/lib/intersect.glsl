@@ -22,6 +22,7 @@
 
 #include "lib/cluster_space.glsl"
 #include "lib/light_volume.glsl"
+#include "lib/normal_cones.glsl"
 
 // Rounding of distances from a range of cells against those from its cells, in parts of the coordinates.
 const float RANGE_ROUNDING = 4e-6;
@@ -89,27 +90,36 @@ bool sphere_meets(CellBounds cell, vec4 sphere)
 }
 
 // Whether some volume whose sphere meets a cell is left out all the same.
-#define LEAVES_OUT (BOUNDS == BOUNDS_BOX && SPACE == SPACE_PERSPECTIVE && !BOXED || CONES != CONES_UNASKED)
+#define LEAVES_OUT (BOUNDS == BOUNDS_BOX && SPACE == SPACE_PERSPECTIVE && !BOXED || CONES != CONES_UNASKED || NORMAL_CONES)
 
-// Whether a volume whose sphere meets a cell is left out all the same: by the cell's own planes, where a part of it is tested, or by
-// its cone. Few spheres meet, so that this stands apart.
-bool is_left_out(CellBounds cell, LightVolume volume)
+// Whether a volume whose sphere meets a visible cluster's cell is left out all the same: by the cell's own planes, where a part of it
+// is tested, by its cone, or because its light lies behind all samples. Few spheres meet, so that this stands apart.
+bool is_left_out(uint visible, CellBounds cell, LightVolume volume)
 {
 #if TEST_HS || TEST_SAT_P
     if (beyond_cell(cell, bounding_sphere(volume)))
         return true;
 #endif
 #if CONES != CONES_UNASKED
-    return cone_misses(cell, volume);
-#else
-    return false;
+    if (cone_misses(cell, volume))
+        return true;
 #endif
+#if NORMAL_CONES
+    if (is_behind(visible, volume)) {
+        // Lists that are written pair by pair are found twice.
+#if !WRITE_LISTS
+        count(COUNTER_LIGHTS_SKIPPED, 1u);
+#endif
+        return true;
+    }
+#endif
+    return false;
 }
 
-// Whether a light's volume meets a cell. Every kind (VOLUME_*) lies in its bounding sphere.
-bool meets(CellBounds cell, LightVolume volume)
+// Whether a light's volume meets a visible cluster's cell. Every kind (VOLUME_*) lies in its bounding sphere.
+bool meets(uint visible, CellBounds cell, LightVolume volume)
 {
-    return sphere_meets(cell, bounding_sphere(volume)) && !is_left_out(cell, volume);
+    return sphere_meets(cell, bounding_sphere(volume)) && !is_left_out(visible, cell, volume);
 }
 
 // Whether a light may meet some cell of a range that `range` bounds.

@@ -8,9 +8,12 @@
 #include "lib/intersect.glsl"
 #extension GL_EXT_control_flow_attributes : require
 
+// Whether tests ask more of a light than its bounding sphere.
+#define ASKS_LIGHTS (CONES != CONES_UNASKED || NORMAL_CONES && SPOTS)
+
 shared vec4 packet_spheres[ASSIGN_WORKGROUP];
-#if CONES != CONES_UNASKED
-// (kind, light) of each, which tell the cones.
+#if ASKS_LIGHTS
+// (kind, light) of each, which tell cones, and where spots stand.
 shared uvec2 packet_kinds[ASSIGN_WORKGROUP];
 #endif
 #if TEST_MM
@@ -22,7 +25,7 @@ shared vec4 packet_rectangles[ASSIGN_WORKGROUP];
 void fill_packet(LightVolume volume)
 {
     packet_spheres[gl_LocalInvocationID.x] = bounding_sphere(volume);
-#if CONES != CONES_UNASKED
+#if ASKS_LIGHTS
     packet_kinds[gl_LocalInvocationID.x] = uvec2(volume.kind, volume.light);
 #endif
 #if TEST_MM
@@ -37,7 +40,7 @@ LightVolume packet_volume(uint i)
     LightVolume volume;
     volume.centre = packet_spheres[i].xyz;
     volume.radius = packet_spheres[i].w;
-#if CONES != CONES_UNASKED
+#if ASKS_LIGHTS
     volume.kind = packet_kinds[i].x;
     volume.light = packet_kinds[i].y;
 #endif
@@ -79,7 +82,7 @@ uvec2 lights_met(uint visible, uint count)
 #if LEAVES_OUT
     for (uint part = 0u; part < 2u; ++part)
         for (uint bits = met[part]; bits != 0u; bits &= bits - 1u)
-            if (is_left_out(cell, packet_volume(32u * part + uint(findLSB(bits)))))
+            if (is_left_out(visible, cell, packet_volume(32u * part + uint(findLSB(bits)))))
                 met[part] &= ~(bits & (0u - bits));
 #endif
     return met;

@@ -81,6 +81,7 @@ impl ClusteringSizes {
 mod tests {
     use super::*;
     use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction, ListStore};
+    use crate::geometry::NormalCones;
     use crate::measure::Purpose;
 
     const NO_OCTREE: OctreeSizes = OctreeSizes { nodes: 0, leaves: 0, offsets: 0, indices: 0 };
@@ -90,6 +91,7 @@ mod tests {
         tiles: 256,
         listed: Clusters::Visible,
         bounds: ClusterBounds::Box,
+        normal_cones: NormalCones::OFF,
         boxed: false,
         compaction: Compaction::Ranks,
         lists: ListStore::Offsets,

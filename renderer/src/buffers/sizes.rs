@@ -2,6 +2,7 @@
 
 use super::{BufferInfo, BufferName, Owner};
 use crate::assign::{self, Assigner, ClusterBounds, Clusters, Compaction, ListStore, light_blocks};
+use crate::geometry::NormalCones;
 use crate::gpu_interface::{ASSIGN_WORKGROUP, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS};
 use crate::measure::{Capacities, OctreeSizes};
 use crate::vk::{Limits, texel_bytes};
@@ -18,6 +19,8 @@ pub struct ClusteringSizes {
     pub listed: Clusters,
     /// What is kept of a cluster to be tested against lights.
     pub bounds: ClusterBounds,
+    /// Into which cones the normals of a cluster are told apart, to leave lights out.
+    pub normal_cones: NormalCones,
     /// Whether the boxes around cells are tested.
     pub boxed: bool,
     /// How visible clusters get their places.
@@ -140,6 +143,11 @@ impl ClusteringSizes {
     /// Words of the bounds of visible clusters.
     pub(super) fn bound_words(&self) -> u64 {
         self.bounds.words() * self.visible()
+    }
+
+    /// Words of the cones of visible clusters.
+    pub(super) fn cone_words(&self) -> u64 {
+        u64::from(self.normal_cones.words()) * self.visible()
     }
 
     /// Boxes around cells.
@@ -326,6 +334,7 @@ mod tests {
             tiles: 1 << 14,
             listed: Clusters::Visible,
             bounds: ClusterBounds::Cell,
+            normal_cones: NormalCones::OFF,
             boxed: false,
             compaction: Compaction::Ranks,
             lists: ListStore::Offsets,

@@ -122,7 +122,7 @@ fn equal_runs_are_joined_wherever_they_lie_and_whatever_their_output_was_called(
     assert_eq!((visible.a, visible.b, visible.ratio), (Some(150), Some(150), Some(1.0)));
     let metrics: Vec<&str> = same.runs[0].counters.iter().map(|counter| counter.metric.as_str()).collect();
     assert_eq!(metrics[metrics.len() - 3..], ["octree_extra_indices", "clusterings.csv", "histograms.csv"]);
-    assert!(same.to_string().contains("counters: all 22 equal in 2 frames"), "{same}");
+    assert!(same.to_string().contains("counters: all 23 equal in 2 frames"), "{same}");
 }
 
 #[test]
@@ -138,9 +138,9 @@ fn runs_are_joined_by_test_where_a_set_has_several_and_across_tests_where_not() 
     let comparison = compare(&a, &b).unwrap();
     assert_eq!(comparison.runs.len(), 1);
     assert!(
-        comparison.runs[0]
-            .run
-            .ends_with(", brute, exact, visible, implicit, geometric, prepass, forward, offsets, ranks"),
+        comparison.runs[0].run.ends_with(
+            ", brute, exact, visible, implicit, cones-0, geometric, prepass, forward, offsets, ranks"
+        ),
         "{}",
         comparison.runs[0].run
     );

@@ -30,6 +30,11 @@ impl Role {
     }
 }
 
+/// What tells the normal cones of a run from others, also beside numbers of other things.
+fn cones_name(run: &Config) -> String {
+    format!("cones-{}", names(&run.normal_cones))
+}
+
 /// What a resolution is called by.
 pub fn resolution_name([width, height]: [u32; 2]) -> String {
     format!("{width}x{height}")
@@ -69,7 +74,7 @@ pub struct Axis {
 }
 
 /// Every axis: of the product the first varies slowest.
-pub static AXES: [Axis; 15] = [
+pub static AXES: [Axis; 16] = [
     Axis {
         name: "scene",
         description: "The scene as the configuration has it, or its file's name without extension; `*` stands for any \
@@ -201,6 +206,21 @@ pub static AXES: [Axis; 15] = [
         },
         called: |run| vec![names(&choices(run, &run.bounds))],
         label: |run, _| names(&choices(run, &run.bounds)),
+    },
+    Axis {
+        name: "normal_cones",
+        description: "Into how many squares, along a side, each face of the cube of normal cones is divided, 0 without cones; \
+                      `*` stands for any text.",
+        column: "normal_cones",
+        role: Role::Way,
+        values: Values::Names,
+        applies: Bounds::applies,
+        count: |config| config.normal_cones.len(),
+        split: |config| {
+            each(&config.normal_cones, |cones| Config { normal_cones: vec![cones], ..config.clone() })
+        },
+        called: |run| vec![names(&run.normal_cones), cones_name(run)],
+        label: |run, _| cones_name(run),
     },
     Axis {
         name: "slices",

@@ -127,6 +127,7 @@ impl Config {
         self.check_lists()?;
         self.check_samples()?;
         self.check_assign()?;
+        self.check_cones()?;
         let (Some(method), Some(Test::Named(test))) = (self.methods.first(), self.test.first()) else {
             return Ok(());
         };
@@ -162,6 +163,23 @@ impl Config {
         Err(format!(
             "marking: from geometry, fragments of {} samples are shaded at the centre of their pixel, {why}: use depth",
             self.msaa
+        ))
+    }
+
+    /// Cones of normals are gathered where samples are measured.
+    fn check_cones(&self) -> Result<(), String> {
+        let asked = self.normal_cones.first().is_some_and(|cones| cones.are_on());
+        let Some(method) = self.methods.first().filter(|method| asked && method.has_lists()) else {
+            return Ok(());
+        };
+        let mend = match <Bounds as Own>::applies(method) {
+            true if self.bounds[0].of(method) == Bounds::Measured => return Ok(()),
+            true => "use --bounds measured",
+            false => "which can be of clusters of views alone: use 0",
+        };
+        Err(format!(
+            "normal-cones: they are of samples, which are measured with the bounds of their group, and those of {method} are not: \
+             {mend}, or exclude the run"
         ))
     }
 

@@ -110,6 +110,10 @@ pub(super) fn bounds(_: &mut SchemaGenerator) -> Schema {
     choices_of(Bounds::value_variants())
 }
 
+pub(super) fn normal_cones(_: &mut SchemaGenerator) -> Schema {
+    one_or_several(&json_schema!({ "enum": ["0", "1", "2", "3"] }))
+}
+
 pub(super) fn slices(_: &mut SchemaGenerator) -> Schema {
     one_or_several(&json_schema!({
         "type": "string",

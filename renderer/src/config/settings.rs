@@ -8,7 +8,7 @@ use super::{
 };
 use crate::assign::{Bounds, Clusters, Compaction, ListStore, Marking};
 use crate::culling::Culling;
-use crate::geometry::{DisplacedVolume, SliceLaw, VolumeTest};
+use crate::geometry::{DisplacedVolume, NormalCones, SliceLaw, VolumeTest};
 use crate::lights::{
     Attenuation, GeneratorKind, LatticeBox, LightBox, LightMotion, LightSet, Lighting, SpotShare,
 };
@@ -250,6 +250,16 @@ settings! {
         arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::choice::<Bounds>)
         serde(default, deserialize_with = "de::ways")
         schemars(schema_with = "schema::bounds")
+        write(serialize_with = "ser::one_or_several")
+        check(values::check_ways)
+    }
+    /// Which lights are left out of the lists of clusters whose samples all face away from them, where bounds are measured: each face
+    /// of a cube is divided into N x N squares, whose cones of normals are told apart, N being 1 to 3; or 0: none are. Of several, with
+    /// commas between, each is a run of every such method.
+    normal_cones: Vec<NormalCones> = vec![NormalCones::OFF], Run {
+        arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::normal_cones)
+        serde(default, deserialize_with = "de::ways")
+        schemars(schema_with = "schema::normal_cones")
         write(serialize_with = "ser::one_or_several")
         check(values::check_ways)
     }

@@ -3,6 +3,7 @@
 
 use super::{Choice, Lighting, SceneEntry, scenes};
 use crate::assign::ListStore;
+use crate::geometry::NormalCones;
 use crate::lights::Attenuation;
 use crate::methods::{Method, OctreeWay};
 use serde::de::{Error as _, SeqAccess, Visitor};
@@ -39,6 +40,11 @@ pub(super) fn choice<T: FromStr<Err = String>>(text: &str) -> Result<Choice<T>, 
 
 /// Reads the name of a store of light lists.
 pub(super) fn list_store(text: &str) -> Result<ListStore, String> {
+    text.parse()
+}
+
+/// Reads into how many squares the faces of the cube of normal cones are divided.
+pub(super) fn normal_cones(text: &str) -> Result<NormalCones, String> {
     text.parse()
 }
 

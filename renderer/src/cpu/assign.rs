@@ -1,7 +1,9 @@
 //! Light lists by brute force: every visible cluster against every light.
 
 use super::scan;
-use crate::geometry::{CellTest, Grid, LightVolume, MeasuredBounds, SphericalSector, VolumeTest};
+use crate::geometry::{
+    CellTest, Grid, LightVolume, MeasuredBounds, NormalCones, SphericalSector, VolumeTest,
+};
 use crate::lights::Light;
 
 /// The light lists of all visible clusters, one behind the other.
@@ -50,6 +52,34 @@ pub fn assign_measured(
         (!bounds.is_empty()).then(|| CellTest::measured(test, grid, grid.cluster_at(cluster), bounds))
     };
     assign_cells(visible.iter().zip(bounds).map(cell), grid, lights, epsilon)
+}
+
+/// The same without the lights that lie behind all samples of a cluster, of which `cones` tell which ways they face, a bit for
+/// each of `divided`.
+pub fn assign_facing(
+    grid: &Grid,
+    (visible, bounds, cones): (&[u32], &[MeasuredBounds], &[u64]),
+    lights: &[Light],
+    (test, divided): (VolumeTest, NormalCones),
+    epsilon: f64,
+) -> LightLists {
+    let volumes: Vec<_> = lights.iter().map(|light| volume_of_light(grid, light)).collect();
+    let groups = visible.iter().zip(bounds).zip(cones).map(|((&cluster, bounds), &cones)| {
+        let cell =
+            (!bounds.is_empty()).then(|| CellTest::measured(test, grid, grid.cluster_at(cluster), bounds));
+        cell.map(|cell| (cell, bounds.ball(grid), cones))
+    });
+    LightLists::by_margin(groups, &volumes, epsilon, |group, volume| {
+        let Some((cell, ball, cones)) = group else { return f64::NEG_INFINITY };
+        let light = volume.sector.map_or(volume.centre, |sector| sector.apex);
+        let facing = |growth: f64| divided.facing(*cones, (ball.0, ball.1 + growth), light);
+        match cell.margin(volume) {
+            margin if margin < -epsilon => margin,
+            // A ball that is little larger may hide much less: what lies between is too close to call.
+            margin if facing(0.0) < 0.0 && facing(epsilon) >= 0.0 => margin.min(0.0),
+            margin => margin.min(facing(0.0)),
+        }
+    })
 }
 
 fn assign_cells(

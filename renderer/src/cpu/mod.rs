@@ -4,6 +4,7 @@
 //! depth image ─mark─> fragments per cluster ─compact─> visible clusters ─assign─> light lists
 //!                                          (scan: the prefix sums inside compact and assign)
 //!             └─bounds─> what they take of their cells ─assign_measured─> light lists
+//!             └─cones─> which way they face ─assign_facing─> light lists
 //!             └─depth_steps─> how much depth jumps
 //! boxes of instances ─cull─> what is drawn
 //! grid ─build_boxes─> boxes around cells
@@ -30,6 +31,7 @@ mod bounds;
 mod brdf;
 mod build_boxes;
 mod compact;
+mod cones;
 mod cull;
 mod cull_lights;
 mod depth_steps;
@@ -43,12 +45,13 @@ mod scatter;
 mod shell;
 mod sort_tiles;
 
-pub use assign::{LightLists, assign, assign_measured};
+pub use assign::{LightLists, assign, assign_facing, assign_measured};
 pub use attenuation::attenuation;
 pub use bounds::ClusterBounds;
 pub use brdf::{Surface, reflected};
 pub use build_boxes::build_boxes;
 pub use compact::{Compacted, NOT_VISIBLE, compact};
+pub use cones::ClusterCones;
 pub use cull::{Seen, cull};
 pub use cull_lights::{Blocks, Candidate, CellRange, CulledLights, cull_lights, mark_blocks};
 pub use depth_steps::{depth_steps, log2_parts};

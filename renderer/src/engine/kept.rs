@@ -77,6 +77,7 @@ impl KeptLists<'_> {
 mod tests {
     use super::*;
     use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction};
+    use crate::geometry::NormalCones;
     use crate::measure::Capacities;
 
     fn sizes(lists: ListStore) -> ClusteringSizes {
@@ -85,6 +86,7 @@ mod tests {
             tiles: 10,
             listed: Clusters::Visible,
             bounds: ClusterBounds::Cell,
+            normal_cones: NormalCones::OFF,
             boxed: false,
             compaction: Compaction::Atomic,
             lists,

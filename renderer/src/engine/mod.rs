@@ -36,7 +36,7 @@ use crate::buffers::{BufferName, ClusteringSizes, Copies};
 use crate::clustering::{Clustering, FRAME_SLOTS, SharedBuffer};
 use crate::config::{Config, Scopes};
 use crate::culling::Culling;
-use crate::geometry::ConeTest;
+use crate::geometry::{ConeTest, NormalCones};
 use crate::gpu_interface::ClusteringState;
 use crate::layouts::Pipeline;
 use crate::lights::FrameLights;
@@ -65,6 +65,7 @@ pub struct Engine {
     marking: Marking,
     clusters: Clusters,
     bounds: ClusterBounds,
+    normal_cones: NormalCones,
     compaction: Compaction,
     lists: ListStore,
     grid_box: GridBox,
@@ -113,6 +114,7 @@ impl Engine {
             multiview: run.multiview && session.targets.len() > 1,
             clusters: chosen.clusters,
             bounds: chosen.bounds,
+            normal_cones: chosen.normal_cones,
             compaction: chosen.compaction,
             lists: chosen.lists,
             grid_box: run.grid_box,
@@ -295,6 +297,7 @@ impl Engine {
             multiview: self.multiview,
             clusters: self.clusters,
             bounds: self.bounds,
+            normal_cones: self.normal_cones,
             compaction: self.compaction,
             lists: self.lists,
             marking: self.marking,

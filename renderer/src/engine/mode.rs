@@ -8,7 +8,7 @@ use crate::assign::{
 };
 use crate::buffers::ClusteringSizes;
 use crate::config::Config;
-use crate::geometry::{ConeTest, SliceLaw, VolumeTest};
+use crate::geometry::{ConeTest, NormalCones, SliceLaw, VolumeTest};
 use crate::lights::LightTally;
 use crate::measure::Capacities;
 use crate::methods::model::MOST_ACCELERATED;
@@ -85,6 +85,7 @@ pub(super) struct Chosen {
     pub assigner: Assigner,
     pub clusters: Clusters,
     pub bounds: ClusterBounds,
+    pub normal_cones: NormalCones,
     pub compaction: Compaction,
     pub lists: ListStore,
     /// Side of the tiles that are sorted, pixels; 0 where none are.
@@ -103,6 +104,7 @@ impl Chosen {
             Clusters::Visible => run.compaction[0],
             Clusters::All => Compaction::Ranks,
         };
+        let bounds = method.kept_bounds(run.bounds[0].of(&method));
         let sorted = method.tile_pixels(run.resolution).filter(|_| compaction == Compaction::Sort);
         Self {
             method,
@@ -115,7 +117,11 @@ impl Chosen {
             compaction,
             sorted_tile: sorted.map_or(0, |pixels| pixels as u32),
             lists: if assigns { run.lists[0] } else { ListStore::Offsets },
-            bounds: method.kept_bounds(run.bounds[0].of(&method)),
+            bounds,
+            normal_cones: match bounds {
+                ClusterBounds::Cell => NormalCones::OFF,
+                ClusterBounds::Depth | ClusterBounds::Box => run.normal_cones[0],
+            },
             slices: run.slices[0].of(&method),
             test: run.test[0].of(&method),
         }
@@ -176,6 +182,7 @@ impl Chosen {
             sharing: kind.sharing,
             clusters: self.clusters,
             bounds: self.bounds,
+            normal_cones: self.normal_cones,
             compaction: self.compaction,
             sorted_tile: self.sorted_tile,
             lists: self.lists,
@@ -211,6 +218,7 @@ impl Chosen {
             tiles,
             listed: self.clusters,
             bounds: self.bounds,
+            normal_cones: self.normal_cones,
             boxed: kind.cells().is_some_and(|cells| cells.keeps_boxes(self.test.sphere)),
             compaction: self.compaction,
             lists: self.lists,

@@ -103,6 +103,7 @@ mod cones;
 mod cull;
 mod list_stores;
 mod list_twins;
+mod normal_cones;
 mod octree;
 mod raster;
 mod rectangles;

@@ -51,6 +51,16 @@ impl MeasuredBounds {
         })
     }
 
+    /// A ball that holds them in clustering space, around the middle of the least box along its axes: centre, radius (metres).
+    pub fn ball(&self, grid: &Grid) -> (DVec3, f64) {
+        let corners = self.corners(grid);
+        let (low, high) = (
+            corners.into_iter().fold(DVec3::INFINITY, DVec3::min),
+            corners.into_iter().fold(DVec3::NEG_INFINITY, DVec3::max),
+        );
+        (0.5 * (low + high), 0.5 * (high - low).length())
+    }
+
     /// Planes in clustering space, in the order of [`Grid::cell_planes`].
     pub fn planes(&self, grid: &Grid) -> [Plane; 6] {
         let Self { low, high } = *self;
@@ -113,6 +123,18 @@ mod tests {
             for corner in bounds.corners(&grid) {
                 assert!(grid.cell_corners(cell).iter().any(|of_cell| of_cell.distance(corner) < 1e-9));
             }
+        }
+    }
+
+    #[test]
+    fn the_ball_holds_all_corners_and_touches_some() {
+        for grid in grids() {
+            let mut bounds = MeasuredBounds::EMPTY;
+            grid.cell_corners([1, 2, 6]).into_iter().for_each(|corner| bounds.include(&grid, corner));
+            let (centre, radius) = bounds.ball(&grid);
+            let farthest =
+                bounds.corners(&grid).map(|corner| corner.distance(centre)).into_iter().fold(0.0, f64::max);
+            assert!((farthest - radius).abs() < 1e-9, "{farthest} {radius}");
         }
     }
 

@@ -47,6 +47,8 @@ counters! {
     fragments_hidden,
     /// Lights that capped lists were too full for.
     lights_dropped,
+    /// Lights that get onto no list of a cluster that they meet, for they lie behind all of its samples.
+    lights_skipped,
     /// Octaves by which the distances of neighbouring pixels of the first view differ, all together, in [`OCTAVE_PARTS`].
     depth_steps,
     /// Pairs of neighbouring pixels that these are of: both show something.

@@ -79,7 +79,7 @@ macro_rules! frame_row {
         row! {
             /// A frame: the counters of the atemporal run, and GPU milliseconds, of each stage the minimum over the
             /// temporal runs; `None` where nothing was timed.
-            "frames.csv" FrameRow added fragments_hidden lights_dropped depth_discontinuity octree_rebuilds octree_bytes
+            "frames.csv" FrameRow added fragments_hidden lights_dropped lights_skipped depth_discontinuity octree_rebuilds octree_bytes
                 octree_tables_hashed octree_bytes_uploaded octree_extra_indices {
                 /// Frame number in the recording.
                 frame: u32,
@@ -157,6 +157,9 @@ frame_row! {
         /// Lights that capped lists were too full for; of other lists none.
         #[serde(default)]
         lights_dropped: u64 = |counts| counts.counters.lights_dropped;
+        /// Lights that get onto no list of a cluster that they meet, for by its normal cones they lie behind all of its samples.
+        #[serde(default)]
+        lights_skipped: u64 = |counts| counts.counters.lights_skipped;
         /// Mean over neighbouring pixels of the first view of the octaves by which their distances differ, millionths.
         #[serde(default)]
         depth_discontinuity: u64 = FrameCounts::depth_discontinuity;
@@ -185,6 +188,7 @@ frame_row! {
         /// without clusters, its depth pass.
         gpu_ms_visibility = &[
             "frame/depth", "frame/cluster/depth", "frame/cluster/mark", "frame/cluster/sort_tiles", "frame/cluster/bounds",
+            "frame/cluster/cones",
         ];
         /// What it takes to know the lengths of the light lists, over clusterings.
         gpu_ms_count_lights = &stages::COUNTING;

@@ -23,16 +23,16 @@ fn frames_csv_has_the_documented_columns_and_the_minimum_over_runs() {
     let text = frames(&[counts(40)], &[times(0, 40, 9.0), times(1, 40, 8.0)]);
     let expected = "frame,time_s,views,clusterings,clusters,visible_clusters,light_indices,lighting_computations,\
         needed_computations,intersection_tests,fragments_shaded,fragments_hidden,fragments_without_cluster,light_indices_dropped,\
-        visible_clusters_dropped,lights_dropped,depth_discontinuity,octree_rebuilds,octree_bytes,octree_tables_hashed,octree_bytes_uploaded,octree_extra_indices,gpu_ms_frame,gpu_ms_cluster,gpu_ms_visibility,gpu_ms_count_lights,\
+        visible_clusters_dropped,lights_dropped,lights_skipped,depth_discontinuity,octree_rebuilds,octree_bytes,octree_tables_hashed,octree_bytes_uploaded,octree_extra_indices,gpu_ms_frame,gpu_ms_cluster,gpu_ms_visibility,gpu_ms_count_lights,\
         gpu_ms_assign_lights,gpu_ms_shade\n\
-        40,0.4444444444444444,2,2,2904,4,9,650,600,4000,257,0,0,0,0,0,0,0,0,0,0,0,8.000000,2.000000,1.000000,0.000000,0.000000,4.000000\n";
+        40,0.4444444444444444,2,2,2904,4,9,650,600,4000,257,0,0,0,0,0,0,0,0,0,0,0,0,8.000000,2.000000,1.000000,0.000000,0.000000,4.000000\n";
     assert_eq!(text, expected);
 }
 
 #[test]
 fn frames_csv_leaves_times_empty_without_temporal_runs() {
     let text = frames(&[counts(0)], &[]);
-    assert!(text.ends_with("\n0,0,2,2,2904,4,9,650,600,4000,257,0,0,0,0,0,0,0,0,0,0,0,,,,,,\n"), "{text}");
+    assert!(text.ends_with("\n0,0,2,2,2904,4,9,650,600,4000,257,0,0,0,0,0,0,0,0,0,0,0,0,,,,,,\n"), "{text}");
 }
 
 #[test]

@@ -160,7 +160,7 @@ fn meet(
     dispatch: (&Pipeline, u32),
     (reads, writes): (BufferSet, BufferSet),
 ) {
-    let cells = set(&[B::VisibleClusters, B::ClusterBounds]) | boxes(frame) | cones(frame);
+    let cells = set(&[B::VisibleClusters, B::ClusterBounds, B::ClusterCones]) | boxes(frame) | cones(frame);
     let met = match frame.assigner {
         Assigner::Brute => cells | set(&[B::LightVolumes]),
         Assigner::Hierarchy => cells | set(&[B::TreeVolumes, B::TreeLights, B::LightNodes]),
@@ -176,15 +176,15 @@ fn meet(
 fn measured(frame: &Frame) -> BufferSet {
     match (frame.bounds, frame.cones) {
         (ClusterBounds::Cell, ConeTest::Unasked) => BufferSet::EMPTY,
-        _ => lights::READ | set(&[B::VisibleClusters, B::ClusterBounds]),
+        _ => lights::READ | set(&[B::VisibleClusters, B::ClusterBounds, B::ClusterCones]),
     }
 }
 
-/// The lights whose cones are asked.
+/// The lights whose cones are asked, or, of spots, where they stand.
 fn cones(frame: &Frame) -> BufferSet {
     match frame.cones {
-        ConeTest::Unasked => BufferSet::EMPTY,
-        ConeTest::Separating | ConeTest::Exact => lights::READ,
+        ConeTest::Unasked if !frame.normal_cones.are_on() => BufferSet::EMPTY,
+        ConeTest::Unasked | ConeTest::Separating | ConeTest::Exact => lights::READ,
     }
 }
 

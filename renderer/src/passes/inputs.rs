@@ -7,7 +7,7 @@ use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::clustering::Clustering;
 use crate::draw_list::DrawList;
 use crate::drawables::{DrawableOrder, Drawables};
-use crate::geometry::{ConeTest, Sharing};
+use crate::geometry::{ConeTest, NormalCones, Sharing};
 use crate::gpu_scene::GpuScene;
 use crate::layouts::BoundBuffers;
 use crate::pass::{DepthImage, ScopeName};
@@ -159,6 +159,8 @@ pub struct Frame<'a> {
     pub clusters: Clusters,
     /// What of a cluster is tested against lights.
     pub bounds: ClusterBounds,
+    /// Into which cones the normals of a cluster are told apart, to leave lights out.
+    pub normal_cones: NormalCones,
     /// How visible clusters get their places.
     pub compaction: Compaction,
     /// How the lists lie in memory.

@@ -6,6 +6,7 @@ pub mod assign;
 pub mod bounds;
 pub mod build_boxes;
 pub mod clay;
+pub mod cones;
 pub mod cull;
 pub mod cull_lights;
 pub mod depth;

@@ -24,6 +24,8 @@ pub(super) enum Output {
     Shades(SurfaceKind, TextureSet),
     /// Tests depth; fills the G-buffer, of which these textures are a part.
     Fills(SurfaceKind, TextureSet),
+    /// Tests depth; gathers which way fragments face, which these textures tell.
+    Faces(SurfaceKind, TextureSet),
     /// Tests depth; counts what is seen in the end.
     Sees(SurfaceKind),
 }
@@ -32,7 +34,7 @@ impl Output {
     /// The colour targets it draws into, for groups that are models or others.
     fn targets(self, models: bool) -> &'static [TargetName] {
         match self {
-            Self::Depth | Self::Visits(..) | Self::Sees(_) => &[],
+            Self::Depth | Self::Visits(..) | Self::Faces(..) | Self::Sees(_) => &[],
             Self::Shades(..) => &[TargetName::Radiance],
             Self::Fills(..) => filled(models),
         }
@@ -127,6 +129,7 @@ fn graphics_defines(variant: &Variant, textured: bool, output: Output) -> Define
     match output {
         Output::Depth => defines,
         Output::Visits(_, visit) => defines.with("VISIT", visit.define()),
+        Output::Faces(..) => variant.normal_cone_defines(&defines),
         Output::Sees(kind) => defines.with("ALPHA_TEST", u32::from(kind == SurfaceKind::Masked)),
         Output::Fills(kind, _) => defines
             .with("OVERDRAW", u32::from(variant.overdraws(output)))
@@ -145,7 +148,7 @@ fn varyings(textured: bool, output: Output) -> u32 {
         Output::Depth => u32::from(textured),
         Output::Visits(..) => 0,
         Output::Sees(kind) => u32::from(kind == SurfaceKind::Masked),
-        Output::Shades(..) | Output::Fills(..) => 2,
+        Output::Shades(..) | Output::Fills(..) | Output::Faces(..) => 2,
     }
 }
 
@@ -155,7 +158,7 @@ fn textures(textured: bool, output: Output) -> TextureSet {
         Output::Depth if textured => TextureSet::BASE_COLOR,
         Output::Sees(SurfaceKind::Masked) => TextureSet::BASE_COLOR,
         Output::Depth | Output::Visits(..) | Output::Sees(_) => TextureSet::NONE,
-        Output::Shades(_, set) | Output::Fills(_, set) => set,
+        Output::Shades(_, set) | Output::Fills(_, set) | Output::Faces(_, set) => set,
     }
 }
 
@@ -165,12 +168,14 @@ fn depth_compare(variant: &Variant, output: Output) -> vk::CompareOp {
     match output {
         Output::Depth => vk::CompareOp::GREATER,
         _ if variant.overdraws(output) => vk::CompareOp::GREATER_OR_EQUAL,
-        Output::Visits(kind, _) | Output::Shades(kind, _) | Output::Fills(kind, _) | Output::Sees(kind) => {
-            match kind {
-                SurfaceKind::Transparent => vk::CompareOp::GREATER_OR_EQUAL,
-                SurfaceKind::Opaque | SurfaceKind::Masked => vk::CompareOp::EQUAL,
-            }
-        }
+        Output::Visits(kind, _)
+        | Output::Shades(kind, _)
+        | Output::Fills(kind, _)
+        | Output::Faces(kind, _)
+        | Output::Sees(kind) => match kind {
+            SurfaceKind::Transparent => vk::CompareOp::GREATER_OR_EQUAL,
+            SurfaceKind::Opaque | SurfaceKind::Masked => vk::CompareOp::EQUAL,
+        },
     }
 }
 

@@ -4,7 +4,9 @@ use super::Output;
 use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction, ListStore, Marking};
 use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
-use crate::geometry::{CellShape, ConeTest, Separators, Sharing, SliceLaw, SphereTest, VolumeTest};
+use crate::geometry::{
+    CellShape, ConeTest, NormalCones, Separators, Sharing, SliceLaw, SphereTest, VolumeTest,
+};
 use crate::lights::Attenuation;
 use crate::material::MaterialModel;
 use crate::methods::Groups;
@@ -24,6 +26,8 @@ pub struct Variant {
     pub clusters: Clusters,
     /// What of a cluster is tested against lights.
     pub bounds: ClusterBounds,
+    /// Into which cones the normals of a cluster are told apart, to leave lights out.
+    pub normal_cones: NormalCones,
     /// How visible clusters get their places.
     pub compaction: Compaction,
     /// Side of the tiles that are sorted for it, pixels; 0 where none are.
@@ -98,7 +102,7 @@ impl Variant {
             && match output {
                 Output::Depth | Output::Fills(..) => true,
                 Output::Shades(kind, _) => one_clustering && kind != SurfaceKind::Transparent,
-                Output::Visits(..) | Output::Sees(_) => false,
+                Output::Visits(..) | Output::Faces(..) | Output::Sees(_) => false,
             }
     }
 
@@ -129,6 +133,11 @@ impl Variant {
             SurfaceKind::Transparent => true,
         };
         self.material.sampled(textures, reads_alpha)
+    }
+
+    /// The textures that tell the shading normals of surfaces of a kind, of those that their materials have.
+    pub(super) fn sampled_for_normals(&self, kind: SurfaceKind, textures: TextureSet) -> TextureSet {
+        self.sampled(kind, textures).and(TextureSet::NORMAL)
     }
 
     /// Whether fragments of a kind of surface are shaded.
@@ -231,6 +240,12 @@ impl Variant {
         }
     }
 
+    /// The same with those of what asks normals.
+    pub(super) fn normal_cone_defines(&self, defines: &Defines) -> Defines {
+        let cones = self.normal_cones;
+        defines.with("NORMAL_CONES", cones).with("CONE_SPREADS", cones.glsl_spreads())
+    }
+
     /// Definitions for shaders that ask what a volume meets.
     pub(super) fn test_defines(&self) -> Defines {
         let test = self.test.sphere;
@@ -242,7 +257,7 @@ impl Variant {
         let [edges, nearest_vertex, normals, vertices] =
             [Separators::EDGES, Separators::NEAREST_VERTEX, Separators::NORMALS, Separators::VERTICES]
                 .map(|separators| test.asks(separators));
-        self.list_defines()
+        self.normal_cone_defines(&self.list_defines())
             .with("TEST_HS", u32::from(half_spaces))
             .with("TEST_SAT_E", u32::from(edges))
             .with("TEST_SAT_N", u32::from(nearest_vertex))

@@ -22,6 +22,7 @@ mod list_stores;
 mod mirror;
 mod models;
 mod multiview;
+mod normal_cones;
 mod ortiz;
 mod outputs;
 mod overdraw;

@@ -19,6 +19,7 @@ fn everything() -> Config {
         test: ["auto", "hs", "exact"].map(|name| name.parse().unwrap()).to_vec(),
         clusters: vec![Clusters::Visible.into(), Clusters::All.into()],
         bounds: vec![Bounds::Measured.into(), Choice::Auto],
+        normal_cones: ["0", "2"].map(|name| name.parse().unwrap()).to_vec(),
         slices: vec![Choice::Auto, SliceLaw::Geometric.into(), SliceLaw::Linear.into()],
         shading: vec![Shading::Prepass, Shading::Overdraw],
         pipeline: vec![ShadingPipeline::Forward, ShadingPipeline::Deferred],
@@ -37,7 +38,7 @@ fn runs() -> Vec<Config> {
 fn the_product_has_every_combination_that_differs_once() {
     // Of three tests, Persp has its own under two names and Ortho has not, and so it is of slices, which Ortho has none of;
     // the third method knows no ways of assignment, and the fourth but two of making octrees. All are shaded in two ways by two pipelines.
-    assert_eq!(runs().len(), 2 * 2 * 2 * 2 * 2 * ((2 * 2 * 2 * 2 * 2 + 2 * 3 * 2 * 2) * 2 * 2 + 1 + 2));
+    assert_eq!(runs().len(), 2 * 2 * 2 * 2 * 2 * ((2 * 2 * 2 * 2 * 2 + 2 * 3 * 2 * 2) * 2 * 2 * 2 + 1 + 2));
     for run in runs() {
         assert_eq!((run.by_scene(), run.cases()), (vec![run.clone()], vec![run]));
     }

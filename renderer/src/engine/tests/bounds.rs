@@ -21,7 +21,7 @@ pub(super) fn method(name: &str) -> Method {
 }
 
 /// A configuration whose method measures.
-fn measuring() -> Config {
+pub(super) fn measuring() -> Config {
     Config { bounds: vec![Bounds::Measured.into()], ..config() }
 }
 
@@ -53,15 +53,15 @@ fn bounds_of(words: &[u32]) -> MeasuredBounds {
     bounds
 }
 
-/// What a frame of the street leaves on the device: distances of pixels, clusters with their fragments, bounds of these.
-struct Measured {
-    depths: Vec<f32>,
-    clusters: Vec<u32>,
+/// What a frame leaves on the device: distances of pixels, clusters with their fragments, bounds of these.
+pub(super) struct Measured {
+    pub(super) depths: Vec<f32>,
+    pub(super) clusters: Vec<u32>,
     fragments: Vec<u32>,
     bounds: Vec<MeasuredBounds>,
 }
 
-fn measure(bench: &mut Bench, method: Method, view: &View) -> Measured {
+pub(super) fn measure(bench: &mut Bench, method: Method, view: &View) -> Measured {
     let pixels = RESOLUTION.iter().product::<u32>() as usize;
     let (usage, size) = (vk::BufferUsageFlags::TRANSFER_DST, (pixels * size_of::<PixelData>()) as u64);
     let context = bench.session.context.clone();
@@ -236,7 +236,7 @@ fn lists_of_measured_clusters_are_those_of_their_twin_by_all_ways() {
 }
 
 /// The bounds of tiles between the sides of their cells.
-fn with_sides(grid: &Grid, clusters: &[u32], bounds: &[MeasuredBounds]) -> Vec<MeasuredBounds> {
+pub(super) fn with_sides(grid: &Grid, clusters: &[u32], bounds: &[MeasuredBounds]) -> Vec<MeasuredBounds> {
     let of_cluster = |(bounds, &cluster): (&MeasuredBounds, &u32)| {
         let mut cell = MeasuredBounds::EMPTY;
         grid.cell_corners(grid.cluster_at(cluster)).into_iter().for_each(|corner| cell.include(grid, corner));

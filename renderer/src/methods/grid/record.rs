@@ -1,7 +1,7 @@
 //! The passes of a method of grids: from depth to visible clusters to light lists, clustering by clustering.
 //!
 //! ```text
-//! Depth ──mark, compact──> VisibleClusters ─┬─(bounds)─┐    or mark, sort_tiles, tile_offsets
+//! Depth ──mark, compact──> VisibleClusters ─┬─(bounds, cones)─┐    or mark, sort_tiles, tile_offsets
 //! (all clusters) ──list_clusters────────────┘          │
 //! Lights ──transform, cull, build, light_rectangles────┴──(count), (offsets), assign──> LightLists
 //! (cells as boxes) ──build_boxes, where the projection is another──┘
@@ -12,8 +12,8 @@
 use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction};
 use crate::pass::Recorder;
 use crate::passes::{
-    Depth, Frame, LightLists, Lights, VisibleClusters, assign, bounds, build_boxes, cull_lights, depth,
-    hierarchy, list_clusters, mark, raster, scan, sort_tiles, take_places,
+    Depth, Frame, LightLists, Lights, VisibleClusters, assign, bounds, build_boxes, cones, cull_lights,
+    depth, hierarchy, list_clusters, mark, raster, scan, sort_tiles, take_places,
 };
 
 /// Records all clusterings; the depth that comes back is what is there with what marking needed beside.
@@ -77,6 +77,11 @@ fn measured_bounds(r: &mut Recorder, frame: &Frame, (depth, visible): (Depth, Vi
     let depth = prepass(r, frame, clustering, depth);
     for view in frame.clusterings[clustering].views.clone() {
         bounds::record(r, frame, view, (depth, visible));
+    }
+    if frame.normal_cones.are_on() {
+        for view in frame.clusterings[clustering].views.clone() {
+            cones::record(r, frame, view, (depth, visible));
+        }
     }
     depth
 }

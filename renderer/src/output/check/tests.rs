@@ -86,8 +86,8 @@ fn rows_and_cells_and_columns_that_miss_or_are_too_many_are_found() {
     let cases = [
         ("frames.csv", "gpu_ms_shade\n", "gpu_ms_shade,more\n", "line 1: a column `more` is not known"),
         ("frames.csv", "time_s,views", "time_s,time_s", "line 1: two columns are called `time_s`"),
-        ("frames.csv", ",4.000000\n", ",4.000000,1\n", "line 2: 29 cells under a header of 28"),
-        ("frames.csv", ",4.000000\n", "\n", "line 2: 27 cells under a header of 28"),
+        ("frames.csv", ",4.000000\n", ",4.000000,1\n", "line 2: 30 cells under a header of 29"),
+        ("frames.csv", ",4.000000\n", "\n", "line 2: 28 cells under a header of 29"),
         ("clusterings.csv", "40,1,2,3,4,1,0,1000,ffffffffffffffff\n", "", "line 3: frame 80, clustering 0"),
         (
             "clusterings.csv",
