@@ -9,7 +9,7 @@
 #extension GL_EXT_control_flow_attributes : require
 
 // Whether tests ask more of a light than its bounding sphere.
-#define ASKS_LIGHTS (CONES != CONES_UNASKED || NORMAL_CONES && SPOTS)
+#define ASKS_LIGHTS (CONES != CONES_UNASKED || NORMAL_CONES)
 
 shared vec4 packet_spheres[ASSIGN_WORKGROUP];
 #if ASKS_LIGHTS

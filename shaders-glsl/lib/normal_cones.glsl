@@ -86,12 +86,8 @@ const float FACING_ROUNDING = 4e-6;
 // Where a light stands: a spot at the apex of what it reaches, any other in the middle of its sphere.
 vec3 place_of(LightVolume volume)
 {
-#if SPOTS
     precise vec3 place = (grid.clustering_from_world * vec4(read_light(volume.light).position, 1.0)).xyz;
     return place;
-#else
-    return volume.centre;
-#endif
 }
 
 // Whether a light lies behind all samples of a visible cluster: for no position in their ball and no normal in

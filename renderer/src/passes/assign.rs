@@ -180,11 +180,12 @@ fn measured(frame: &Frame) -> BufferSet {
     }
 }
 
-/// The lights whose cones are asked, or, of spots, where they stand.
+/// The lights whose cones are asked, or, by normal cones, where they stand.
 fn cones(frame: &Frame) -> BufferSet {
     match frame.cones {
         ConeTest::Unasked if !frame.normal_cones.are_on() => BufferSet::EMPTY,
-        ConeTest::Unasked | ConeTest::Separating | ConeTest::Exact => lights::READ,
+        ConeTest::Unasked => set(&[B::Lights]),
+        ConeTest::Separating | ConeTest::Exact => lights::READ,
     }
 }
 
