@@ -1,12 +1,17 @@
 //! The axes of the product that runs are made of. Each is one entry of [`AXES`]: the product, the rules of `exclude`
 //! with their schema, names of run directories, the closing table's columns and what reports tell runs apart by follow.
 
-use super::{Choice, Config, Lighting, LightsFrom, Own, SceneEntry};
+mod labels;
+mod values;
+
+pub use labels::{Labels, run_name};
+
+use super::{Config, Own};
 use crate::assign::{Bounds, Clusters};
 use crate::geometry::{SliceLaw, VolumeTest};
 use crate::methods::Method;
 use std::fmt;
-use std::path::Path;
+use values::{choices, each, lighting_name, name_and_stem, names, of_scene};
 
 /// What an axis is to a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -374,51 +379,6 @@ impl PartialEq for Axis {
     }
 }
 
-/// What a run is called on each axis of [`Axis::told`]; empty where it need not be told.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Labels(Vec<(&'static Axis, String)>);
-
-impl Labels {
-    /// Values on all axes of a run of the configuration `all`, which has one scene.
-    pub fn new(run: &Config, all: &Config) -> Self {
-        let label = |axis: &'static Axis| match axis.role == Role::Lighting || axis.tells_apart(run, all) {
-            true => (axis, axis.label(run, all)),
-            false => (axis, String::new()),
-        };
-        Self(Axis::told().map(label).collect())
-    }
-
-    /// These values, with the scene told.
-    #[must_use]
-    pub fn of_scene(mut self, scene: &str) -> Self {
-        for (_, label) in self.0.iter_mut().filter(|(axis, _)| axis.role == Role::Scene) {
-            scene.clone_into(label);
-        }
-        self
-    }
-
-    /// Every axis with the label on it.
-    pub fn iter(&self) -> impl Iterator<Item = (&'static Axis, &str)> {
-        self.0.iter().map(|(axis, label)| (*axis, label.as_str()))
-    }
-
-    /// The label on an axis.
-    pub fn get(&self, axis: &Axis) -> &str {
-        self.iter().find(|(other, _)| *other == axis).map_or("", |(_, label)| label)
-    }
-
-    /// The labels on the axes of some roles.
-    pub fn of(&self, roles: &[Role]) -> Vec<&str> {
-        self.iter().filter(|(axis, _)| roles.contains(&axis.role)).map(|(_, label)| label).collect()
-    }
-}
-
-/// Name of a run's directory among the runs of the configuration `all`: the method, and behind it what tells it apart.
-pub fn run_name(run: &Config, all: &Config) -> String {
-    let told = Axis::told().filter(|axis| axis.tells_apart(run, all));
-    told.map(|axis| axis.label(run, all)).collect::<Vec<_>>().join("_")
-}
-
 impl Config {
     /// A configuration for each scene in each resolution.
     pub fn by_scene(&self) -> Vec<Self> {
@@ -435,62 +395,6 @@ impl Config {
         axes.fold(vec![self.clone()], |configs, axis| {
             configs.iter().flat_map(|config| axis.split(config)).collect()
         })
-    }
-}
-
-fn of_scene(config: &Config, entry: &SceneEntry, several: bool) -> Config {
-    let frames = entry.frames.unwrap_or(config.frames);
-    Config {
-        scene: entry.scene.clone(),
-        recording: entry.recording.clone(),
-        scenes: Vec::new(),
-        exclude: Vec::new(),
-        resolution: entry.resolution.unwrap_or(config.resolution),
-        resolutions: if entry.resolution.is_some() { vec![] } else { config.resolutions.clone() },
-        frames,
-        lights: own(&entry.lights, &config.lights),
-        light_volumes: own(&entry.light_volumes, &config.light_volumes),
-        exr: if several { config.exr.within(&frames) } else { config.exr.clone() },
-        ..config.clone()
-    }
-}
-
-/// What a scene has of its own, or else what all have.
-fn own<T: Clone>(own: &[T], all: &[T]) -> Vec<T> {
-    if own.is_empty() { all.to_vec() } else { own.to_vec() }
-}
-
-fn each<T: Copy>(values: &[T], with: impl Fn(T) -> Config) -> Vec<Config> {
-    values.iter().map(|&value| with(value)).collect()
-}
-
-/// What they are for the method of a run; those of all methods as they are.
-fn choices<T: Own>(run: &Config, values: &[Choice<T>]) -> Vec<Choice<T>> {
-    match run.methods.as_slice() {
-        [method] => values.iter().map(|choice| choice.resolved(method)).collect(),
-        _ => values.to_vec(),
-    }
-}
-
-fn names<T: ToString>(values: &[T]) -> String {
-    values.iter().map(ToString::to_string).collect::<Vec<_>>().join(",")
-}
-
-fn name_and_stem(name: &str) -> Vec<String> {
-    let stem = Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    [name.to_owned()].into_iter().chain(stem).collect()
-}
-
-/// What tells a lighting from the others.
-fn lighting_name(lights: &LightsFrom, all: &[LightsFrom]) -> String {
-    let count = |lights: &LightsFrom| lights.lighting().map(|lighting| lighting.count);
-    match lights.lighting() {
-        Some(Lighting { count: n, intensity, cutoff, r0 })
-            if all.iter().filter(|other| count(other) == Some(n)).count() > 1 =>
-        {
-            format!("{n}-{intensity}-{cutoff}-{r0}")
-        }
-        _ => lights.to_string(),
     }
 }
 

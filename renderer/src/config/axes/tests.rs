@@ -3,6 +3,7 @@
 use super::*;
 use crate::assign::{Compaction, ListStore};
 use crate::config::{Assign, Exclude};
+use crate::config::{Choice, Lighting};
 use crate::methods::OctreeWay;
 use crate::shading::{Shading, ShadingPipeline};
 use std::collections::BTreeSet;
