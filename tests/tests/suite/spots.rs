@@ -1,7 +1,7 @@
 //! Spot lights, as users meet them: by every method the pictures of all lights, from rain, from a file, from a scene.
 
 use manylight::assign::Marking;
-use manylight::config::{Assign, Config};
+use manylight::config::{Assign, Config, FrameRange};
 use manylight::lights::Lighting;
 use manylight::shading::ShadingPipeline;
 use manylight_tests::program::{read, refused, small_unlit, succeed};
@@ -47,7 +47,8 @@ fn every_way_of_assignment_shades_spots_in_both_eyes_with_four_samples() {
         "raster-12-6-32-l",
     ];
     let assign = vec![Assign::Brute, Assign::Hierarchy, Assign::Scatter];
-    let runs = run(Config { methods: methods(&names), assign, ..config("bistro-vive", 4, 1.0) });
+    let frames = FrameRange { first: 340, end: Some(341), step: 1 };
+    let runs = run(Config { methods: methods(&names), assign, frames, ..config("bistro-vive", 4, 1.0) });
     assert_equal_the_truth(&runs, Marking::Depth);
 }
 
@@ -57,7 +58,8 @@ fn tests_of_cones_lose_no_light_that_is_needed() {
     let names =
         ["all-lights", "indi-persp-32", "encl-ortho-4", "t-e-28", "dc-e-48-20", "tiled-mm-32", "g-20", "m"];
     let test = ["exact", "exact+cone-sat", "exact+cone"].map(|name| name.parse().unwrap()).to_vec();
-    let runs = run(Config { methods: methods(&names), test, ..config("bistro", 1, 0.8) });
+    let frames = FrameRange { first: 340, end: Some(341), step: 1 };
+    let runs = run(Config { methods: methods(&names), test, frames, ..config("bistro", 1, 0.8) });
     assert_equal_the_truth(&runs, Marking::Depth);
     for of_method in runs[1..].chunks(3) {
         let computed = |place: usize| -> u64 {
