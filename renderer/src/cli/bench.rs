@@ -171,6 +171,11 @@ impl Args {
             ..Layer::default()
         };
         let config = Config::resolve(None, layer)?;
+        if let Some(method) = config.methods.iter().find(|method| !method.takes_ways()) {
+            return Err(Error::Input(format!(
+                "--method {method}: its lists are made in one way alone, so that there is nothing to compare: leave it out"
+            )));
+        }
         config.cases().iter().try_for_each(Config::check_case).map_err(input)?;
         Ok(config)
     }

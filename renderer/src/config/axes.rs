@@ -161,7 +161,7 @@ pub static AXES: [Axis; 16] = [
         column: "assign",
         role: Role::Way,
         values: Values::Names,
-        applies: |method| method.assigns() && !method.is_rasterised(),
+        applies: Method::takes_ways,
         count: |config| config.assign.len(),
         split: |config| each(&config.assign, |assign| Config { assign: vec![assign], ..config.clone() }),
         called: |run| vec![names(&run.assign)],

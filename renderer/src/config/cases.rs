@@ -40,7 +40,7 @@ impl Own for VolumeTest {
     }
 
     fn applies(method: &Method) -> bool {
-        method.assigns() && !method.is_rasterised()
+        method.takes_ways()
     }
 }
 
@@ -60,7 +60,7 @@ impl Own for Bounds {
     }
 
     fn applies(method: &Method) -> bool {
-        method.assigns() && !method.is_apart_from_views() && !method.is_rasterised()
+        method.takes_ways() && !method.is_apart_from_views()
     }
 }
 
@@ -185,7 +185,7 @@ impl Config {
 
     /// A way of assignment that finds lights by one test needs it.
     fn check_assign(&self) -> Result<(), String> {
-        let with_lists = self.methods.first().filter(|method| method.assigns() && !method.is_rasterised());
+        let with_lists = self.methods.first().filter(|method| method.takes_ways());
         let (Some(method), Some(assigner)) = (with_lists, self.assign.first().and_then(|way| way.fixed()))
         else {
             return Ok(());

@@ -398,6 +398,11 @@ impl Method {
         matches!(self, Self::Grid(GridMethod { rasterised: true, .. }))
     }
 
+    /// Whether ways of assignment and tests of lights bear on the method.
+    pub fn takes_ways(&self) -> bool {
+        self.assigns() && !self.is_rasterised()
+    }
+
     /// Whether its lists are those of an octree over the lights.
     pub fn has_octree(&self) -> bool {
         self.kind().groups == Groups::Leaves

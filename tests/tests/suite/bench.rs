@@ -1,7 +1,7 @@
 //! Benchmarks as their users meet them: tables, figures, what measuring costs.
 
 use manylight_tests::manylight;
-use manylight_tests::program::printed;
+use manylight_tests::program::{printed, refused};
 use std::fs;
 
 #[test]
@@ -32,6 +32,14 @@ fn assignment_is_drawn_over_lights_and_over_clusters() {
     assert_eq!(read("assign_clusters.svg").matches("mark-line").count(), 2 * ways);
     let exponents = read("assign_exponents.csv");
     assert_eq!(exponents.lines().count(), 1 + 4 * ways, "{exponents}");
+}
+
+#[test]
+fn methods_that_make_their_lists_in_one_way_are_not_compared() {
+    for method in ["raster-24-12-32-e", "hashed-0.5-3", "all-lights"] {
+        let told = refused(manylight().args(["bench", "assign", "--method", method]));
+        assert!(told.contains(method) && told.contains("one way alone"), "{told}");
+    }
 }
 
 #[test]
