@@ -2,15 +2,10 @@
 #pragma once
 
 #include "lib/cluster_space.glsl"
+#include "lib/slice_range.glsl"
 
 // What rounding may cost of a sum or a product, in parts of the coordinates that are in it.
 const float SHELL_ROUNDING = 1e-6;
-
-// A half of a range of which nothing is known; two halves in a word are a range: the first slice, and how many slices lie behind the
-// last in the upper one.
-const uint NO_SLICE = 0xFFFFu;
-const uint EMPTY_RANGE = 0xFFFFFFFFu;
-const uint RANGE_FROM_THE_EYE = 0xFFFF0000u;
 
 // Tangents of the sides of a tile.
 struct Tile {
@@ -23,11 +18,6 @@ struct Triangle {
 
 // (least, greatest) of no depths.
 const vec2 NO_DEPTHS = vec2(3e38, -3e38);
-
-uint joined_ranges(uint a, uint b)
-{
-    return min(a & NO_SLICE, b & NO_SLICE) | min(a >> 16, b >> 16) << 16;
-}
 
 float size_of(vec3 vector)
 {

@@ -5,12 +5,10 @@
 #include "lib/cluster_space.glsl"
 #include "lib/counters.glsl"
 #include "lib/list_builder.glsl"
+#include "lib/slice_range.glsl"
 #include "lib/visible.glsl"
 
 layout(local_size_x = ASSIGN_WORKGROUP) in;
-
-// Half of a range of which nothing is known (lib/shell.glsl).
-const uint NO_SLICE = 0xFFFFu;
 
 void main()
 {

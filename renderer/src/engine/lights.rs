@@ -7,7 +7,7 @@
 use crate::Result;
 use crate::buffers::BufferName;
 use crate::clustering::{FRAME_SLOTS, SharedBuffer, make_buffer};
-use crate::geometry::{self, LightMesh, LightVolume, MeshKind, SphereLevel, SphericalSector, VolumeKind};
+use crate::geometry::{self, LightMesh, LightVolume, MeshKind, SphericalSector, VolumeKind};
 use crate::gpu_interface::{LightData, MeshFrame, SpotData};
 use crate::lights::{ConeFalloff, FrameLights, Light, LightTally};
 use crate::pass::BufferCopy;
@@ -19,9 +19,6 @@ use std::sync::Arc;
 
 /// Least bytes of a buffer.
 const LEAST_BYTES: u64 = 16;
-
-/// How fine the meshes around points are: the paper's.
-const LEVEL: SphereLevel = SphereLevel::V42;
 
 /// The lights of an engine, there and on their way.
 pub(super) struct DeviceLights {
@@ -83,7 +80,7 @@ impl Room {
 impl Meshes {
     /// The templates, and room for what places them.
     fn new(context: &Arc<Context>, frames: u64) -> Result<Self> {
-        let templates = [MeshKind::Sphere(LEVEL), MeshKind::Spot].map(LightMesh::new);
+        let templates = MeshKind::RASTERISED.map(LightMesh::new);
         let vertices: Vec<[f32; 4]> = templates
             .iter()
             .flat_map(|mesh| &mesh.vertices)
@@ -198,7 +195,7 @@ fn mesh_frame(light: &Light, origin: DVec3) -> MeshFrame {
         None => LightVolume::sphere(light.place() - origin, light.r1.into()),
         Some(sector) => LightVolume::sector(SphericalSector { apex: sector.apex - origin, ..sector }),
     };
-    (&geometry::MeshFrame::of(&volume, LEVEL).1).into()
+    (&geometry::MeshFrame::of(&volume, MeshKind::LEVEL).1).into()
 }
 
 /// A light as shaders read it in a frame with this origin.

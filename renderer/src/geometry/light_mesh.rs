@@ -75,6 +75,14 @@ pub enum MeshKind {
     Spot,
 }
 
+impl MeshKind {
+    /// How fine the meshes around points are that are rasterised: the paper's.
+    pub const LEVEL: SphereLevel = SphereLevel::V42;
+
+    /// The meshes that are rasterised, of points, then of spots; devices have their templates in this order.
+    pub const RASTERISED: [Self; 2] = [Self::Sphere(Self::LEVEL), Self::Spot];
+}
+
 /// A convex mesh, as a template for many lights.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LightMesh {

@@ -3,7 +3,7 @@
 use super::{Defines, PipelineStore, ScanPipelines, Variant, Visit, VisitPipelines};
 use crate::Result;
 use crate::assign::{Assigner, Compaction, ListStore, sorted_keys, sorted_threads};
-use crate::geometry::{LightMesh, MeshKind, SphereLevel};
+use crate::geometry::{LightMesh, MeshKind};
 use crate::layouts::Pipeline;
 use std::sync::Arc;
 
@@ -87,8 +87,8 @@ impl Maker<'_> {
         }
         let frames = self.lists("raster/mesh_frames.comp")?;
         let (mut first_vertex, mut first_triangle, mut shells) = (0, 0, vec![]);
-        let kinds = [("MESH_SPHERE", MeshKind::Sphere(SphereLevel::V42)), ("MESH_SPOT", MeshKind::Spot)];
-        for (name, kind) in kinds.into_iter().take(if self.variant.spots { 2 } else { 1 }) {
+        let kinds = ["MESH_SPHERE", "MESH_SPOT"].into_iter().zip(MeshKind::RASTERISED);
+        for (name, kind) in kinds.take(if self.variant.spots { 2 } else { 1 }) {
             let LightMesh { vertices, triangles } = LightMesh::new(kind);
             let defines = self.defines.with("MESH", name).with("MESH_VERTICES", vertices.len());
             let defines = defines.with("MESH_TRIANGLES", triangles.len());
