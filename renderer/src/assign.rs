@@ -11,10 +11,11 @@ mod sorted_tiles;
 mod store;
 
 pub use sorted_tiles::{check_sorted_slices, check_sorted_tiles, sorted_keys, sorted_threads};
-pub use store::{Compaction, ListStore, MOST_CAPPED, MOST_FIXED};
+pub use store::{Compaction, Links, ListStore, MOST_CAPPED, MOST_FIXED, NODES_PER_CLUSTER, NodeLayout};
 
 use crate::geometry::SphereTest;
 use crate::gpu_interface::{ASSIGN_WORKGROUP, BLOCK_COLUMNS, LIGHT_BLOCK, SORT_BITS, TREE_WIDTH};
+use crate::methods::Method;
 use crate::nearest;
 use clap::ValueEnum;
 use schemars::JsonSchema;
@@ -121,6 +122,8 @@ pub enum Assigner {
     Rectangles,
     /// Every light to the visible clusters that the mesh around it meets, tile by tile (Örtegren and Persson).
     Raster,
+    /// The same, the mesh of one light at a time, without keeping where meshes lie.
+    RasterCount,
 }
 
 impl Assigner {
@@ -128,8 +131,13 @@ impl Assigner {
     pub fn culls_lights(self) -> bool {
         match self {
             Self::Hierarchy | Self::Scatter => true,
-            Self::Brute | Self::Rectangles | Self::Raster => false,
+            Self::Brute | Self::Rectangles | Self::Raster | Self::RasterCount => false,
         }
+    }
+
+    /// Whether lights are handed to the clusters that the meshes around them meet, and not tested.
+    pub fn rasterises(self) -> bool {
+        matches!(self, Self::Raster | Self::RasterCount)
     }
 
     /// Whether it finds who meets whom by this test. A rectangle of tiles holds no lights but those that are seen in it.
@@ -146,6 +154,7 @@ impl fmt::Display for Assigner {
             Self::Scatter => "scatter",
             Self::Rectangles => "rectangles",
             Self::Raster => "raster",
+            Self::RasterCount => "raster-count",
         })
     }
 }
@@ -193,7 +202,7 @@ impl AssignCounts {
                 COST_HIERARCHY + COST_CULL_LIGHT * lights + COST_NODE * nodes
             }
             // They serve one test alone, or methods of their own, and are not chosen.
-            Assigner::Rectangles | Assigner::Raster => f64::INFINITY,
+            Assigner::Rectangles | Assigner::Raster | Assigner::RasterCount => f64::INFINITY,
         }
     }
 }
@@ -221,6 +230,27 @@ pub fn check_one_pass(lists: ListStore, lights: u32) -> Result<(), String> {
         "lists: brute force takes up to {MOST_IN_ONE_PASS} lights to {lists} in its one pass, and there are {lights}: use \
          --assign scatter, or --lists offsets"
     ))
+}
+
+/// Why a method cannot link its lists, or link so many lights.
+///
+/// # Errors
+/// Says what can.
+pub fn check_links(lists: ListStore, method: &Method, lights: u32) -> Result<(), String> {
+    let Some(Links { node, .. }) = lists.links() else { return Ok(()) };
+    if !method.is_rasterised() {
+        return Err(format!(
+            "lists: {lists} are of nodes that methods link which rasterise meshes, and {method} tests lights: use a method such as \
+             raster-24-12-32-e, or --lists offsets, or exclude the run"
+        ));
+    }
+    let most = node.most_lights();
+    if lights > most {
+        return Err(format!(
+            "lists: {lists} serve up to {most} lights, and there are {lights}: use --lists offsets"
+        ));
+    }
+    Ok(())
 }
 
 /// Bits of lists take at most this many words.
@@ -281,6 +311,20 @@ pub fn sort_passes(lights: u32) -> u32 {
 mod tests {
     use super::*;
     use crate::gpu_interface::MAX_TREE_DEPTH;
+
+    #[test]
+    fn lists_are_linked_where_meshes_are_rasterised_and_nodes_hold_the_lights() {
+        let [tests, rasterises] = ["indi-persp-64", "raster-24-12-32-e"].map(|name| name.parse().unwrap());
+        let check = |lists: &str, method, lights| check_links(lists.parse().unwrap(), method, lights);
+        assert_eq!(check("offsets", &tests, u32::MAX), Ok(()));
+        assert!(check("linked-64", &tests, 1).unwrap_err().contains("indi-persp-64 tests lights"));
+        for (lists, most) in [("linked-64", 16_384), ("linked-32-unsorted", 4096)] {
+            assert_eq!(check(lists, &rasterises, most), Ok(()));
+            assert!(
+                check(lists, &rasterises, most + 1).unwrap_err().contains(&format!("up to {most} lights"))
+            );
+        }
+    }
 
     const COUNTS: [u32; 10] = [0, 1, 7, 8, 64, 65, 4096, 100_000, 1 << 20, u32::MAX];
 

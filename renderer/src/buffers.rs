@@ -151,20 +151,21 @@ buffers! {
     BlockSums = buffer("block_sums", Owner::Clustering)
         .storage("uint block_sums[]")
         .sized(|s| bytes::<u32>(s.scan_blocks()));
-    /// How many lights each list has; in entries of a fixed size, how many it should have.
+    /// How many lights each list has; in entries of a fixed size, how many it should have; nothing where lists are linked.
     ListLengths = buffer("list_lengths", Owner::Clustering)
         .storage("uint list_lengths[]")
-        .sized(|s| bytes::<u32>(s.visible()));
-    /// Where each list begins, and in the store by offsets the total; nothing where lists have entries of a fixed size.
+        .sized(|s| bytes::<u32>(s.lengths()));
+    /// Where each list begins, and in the store by offsets the total; the first node of each list where these are linked; nothing where
+    /// lists have entries of a fixed size.
     ListOffsets = buffer("list_offsets", Owner::Clustering)
         .storage("uint list_offsets[]")
         .sized(|s| bytes::<u32>(s.offsets()))
         .serving(Purpose::Lists);
-    /// The lights of the lists.
+    /// The lights of the lists, or the pool of nodes that tell lights and next nodes.
     LightIndices = buffer("light_indices", Owner::Clustering)
         .storage("uint light_indices[]")
         .texels("index", Element::Word)
-        .sized(|s| bytes::<u32>(s.light_indices()))
+        .sized(|s| bytes::<u32>(s.light_index_words()))
         .serving(Purpose::Lists);
     /// What the device finds out: `new_state` is written, `state` is what earlier dispatches wrote.
     State = buffer("state", Owner::Clustering)
@@ -278,7 +279,7 @@ buffers! {
     /// The slices of each tile in which the mesh around each light lies: the first, and in the upper half how many lie behind the last.
     ShellRanges = buffer("shell_ranges", Owner::Clustering)
         .storage("uint shell_ranges[]")
-        .sized(|s| bytes::<u32>(s.meshes() * s.tiles));
+        .sized(|s| bytes::<u32>(s.shell_tiles()));
     /// Boxes around the scene's models, in drawing order.
     ModelBoxes = buffer("model_boxes", Owner::Scene).storage("ModelBox model_boxes[]");
     /// What is drawn of the scene where the device culls.

@@ -217,7 +217,7 @@ impl PipelineStore {
             false => None,
         };
         let accelerated = match variant.assigner {
-            Assigner::Brute | Assigner::Rectangles | Assigner::Raster => None,
+            Assigner::Brute | Assigner::Rectangles | Assigner::Raster | Assigner::RasterCount => None,
             Assigner::Hierarchy | Assigner::Scatter => Some(self.accelerated(variant)?),
         };
         let cull = match variant.culling {

@@ -32,7 +32,7 @@ void main()
         uint group = group_at(view, location, depth);
         LightCursor cursor;
         if (group != NO_GROUP && list_of_group(group, cursor)) {
-            result.light_count = cursor.end - cursor.next;
+            result.light_count = length_of(cursor);
             result.fragment_count = fragments_of_group(group);
             result.cluster_index = group;
         }

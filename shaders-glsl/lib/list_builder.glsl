@@ -10,14 +10,33 @@
 // The light behind a number.
 uint light_of_number(uint number)
 {
-#if ASSIGN == ASSIGN_BRUTE || ASSIGN == ASSIGN_RECTANGLES || ASSIGN == ASSIGN_RASTER
-    return number;
-#else
+#if ASSIGN == ASSIGN_HIERARCHY || ASSIGN == ASSIGN_SCATTER
     return read_candidate(number).light;
+#else
+    return number;
 #endif
 }
 
-#if WRITE_LISTS
+#if LISTS == LISTS_LINKED
+
+#include "lib/light_nodes.glsl"
+
+// Makes a node of a light, which becomes the first of its list; nodes that the pool has no room for are counted alone.
+void link_light(uint visible, uint light, bool is_spot)
+{
+    uint node = atomicAdd(new_state.index_total, 1u);
+    if (node >= grid.index_capacity)
+        return;
+    uint next = atomicExchange(list_offsets[visible], node);
+#if NODE_WORDS == 2
+    light_indices[2u * node] = light | (is_spot ? 0u : KIND_OF_POINT);
+    light_indices[2u * node + 1u] = next;
+#else
+    light_indices[node] = light << 20 | next;
+#endif
+}
+
+#elif WRITE_LISTS
 
 // Puts a light into its list; the lengths run down to zero as lists fill up.
 void add_light(uint visible, uint number)

@@ -71,6 +71,8 @@ void publish_lists(uint lights, uint visible)
     publish_meeting(DispatchSize((lights + ASSIGN_WORKGROUP - 1u) / ASSIGN_WORKGROUP, rectangle_split(visible), 1u), masked);
 #elif ASSIGN == ASSIGN_RASTER
     publish_meeting(DispatchSize((grid.dimensions.x * grid.dimensions.y + ASSIGN_WORKGROUP - 1u) / ASSIGN_WORKGROUP, lights, 1u), masked);
+#elif ASSIGN == ASSIGN_RASTER_COUNT
+    publish_meeting(DispatchSize(1u, lights, 1u), masked);
 #endif
 }
 
@@ -86,7 +88,7 @@ void publish_visible(uint total)
 #endif
     dispatches[DISPATCH_LISTS] = groups_for(visible, ASSIGN_WORKGROUP);
     dispatches[DISPATCH_SCAN] = groups_for(visible, SCAN_BLOCK);
-#if ASSIGN == ASSIGN_BRUTE || ASSIGN == ASSIGN_RECTANGLES || ASSIGN == ASSIGN_RASTER
+#if ASSIGN != ASSIGN_HIERARCHY && ASSIGN != ASSIGN_SCATTER
     publish_lists(grid.light_count, visible);
 #endif
 }

@@ -1,14 +1,14 @@
 // The light list of a sample's group, for every lookup by groups with lists; each says itself which group a sample is of.
 #pragma once
 
+#include "lib/light_cursor.glsl"
 #include "lib/visible.glsl"
-
-struct LightCursor {
-    uint next, end;
-};
 
 LightCursor list_of_visible(uint visible)
 {
+#if LISTS == LISTS_LINKED
+    return LightCursor(list_offsets[visible], NO_NODE);
+#else
 #if LISTS == LISTS_FIXED
     uint first = visible * grid.list_capacity;
     uint end = first + min(list_lengths[visible], grid.list_capacity);
@@ -20,6 +20,7 @@ LightCursor list_of_visible(uint visible)
     uint end = list_offsets[visible + 1u];
 #endif
     return LightCursor(min(first, grid.index_capacity), min(end, grid.index_capacity));
+#endif
 }
 
 const uint NO_GROUP = NO_CLUSTER;
@@ -44,10 +45,12 @@ bool find_lights(ViewData view, vec2 pixel, float depth, out LightCursor cursor)
     return list_of_group(group_of_sample(view, pixel, depth), cursor);
 }
 
+#if LISTS != LISTS_LINKED
 uint light_at(uint position)
 {
     return read_index(position);
 }
+#endif
 
 // Fragments that were counted in a group.
 uint fragments_of_group(uint group)

@@ -1,11 +1,7 @@
 // Every light, for every fragment: the truth that the other lookups are compared with.
 #pragma once
 
-#include "generated/gpu_interface.glsl"
-
-struct LightCursor {
-    uint next, end;
-};
+#include "lib/light_cursor.glsl"
 
 // The lights of a sample; false where the sample's cluster is missing, which never happens here.
 bool find_lights(ViewData view, vec2 pixel, float depth, out LightCursor cursor)

@@ -2,12 +2,9 @@
 // child whether that is a leaf, and whether it is filled. Every table is a perfect spatial hash (Lefebvre and Hoppe 2006).
 #pragma once
 
+#include "lib/light_cursor.glsl"
 #include "lib/octree.glsl"
 #include "lib/view_position.glsl"
-
-struct LightCursor {
-    uint next, end;
-};
 
 const uint NO_GROUP = NO_LEAF;
 

@@ -19,7 +19,7 @@ void main()
         LightCursor cursor;
         find_lights(view, location, depth, cursor);
         result.distance = -view_position(view, location, depth).z;
-        result.light_count = cursor.end - cursor.next;
+        result.light_count = length_of(cursor);
         result.cluster_index = group_of_sample(view, location, depth);
         result.fragment_count = fragments_of_group(result.cluster_index);
     }

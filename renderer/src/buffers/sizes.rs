@@ -1,7 +1,7 @@
 //! Sizes of a clustering's buffers, and what a device must hold and dispatch for them: pure.
 
 use super::{BufferInfo, BufferName, Owner};
-use crate::assign::{self, Assigner, ClusterBounds, Clusters, Compaction, ListStore, light_blocks};
+use crate::assign::{self, Assigner, ClusterBounds, Clusters, Compaction, Links, ListStore, light_blocks};
 use crate::geometry::NormalCones;
 use crate::gpu_interface::{ASSIGN_WORKGROUP, SCAN_BLOCK, SORT_BLOCK, SORT_DIGITS};
 use crate::measure::{Capacities, OctreeSizes};
@@ -54,9 +54,9 @@ impl ClusteringSizes {
         }
     }
 
-    /// Lights that are taken into the space of clusters, where there are such.
+    /// Lights that are taken into the space of clusters, where there are such, to be tested.
     pub(super) fn volumes(&self) -> u64 {
-        if self.clusters > 0 { self.lights.into() } else { 0 }
+        if self.clusters > 0 && !self.assigner.rasterises() { self.lights.into() } else { 0 }
     }
 
     /// Lights whose cones are told: all, where some have one.
@@ -97,7 +97,12 @@ impl ClusteringSizes {
 
     /// Lights whose meshes are rasterised.
     pub(super) fn meshes(&self) -> u64 {
-        if self.assigner == Assigner::Raster { self.lights.into() } else { 0 }
+        if self.assigner.rasterises() { self.lights.into() } else { 0 }
+    }
+
+    /// Tiles of all meshes, of which each has its slices, where these are kept.
+    pub(super) fn shell_tiles(&self) -> u64 {
+        if self.assigner == Assigner::Raster { self.meshes() * self.tiles } else { 0 }
     }
 
     /// Clusters of which each has its place where it is visible.
@@ -112,19 +117,26 @@ impl ClusteringSizes {
     pub fn light_indices(&self) -> u64 {
         match self.lists {
             ListStore::Offsets | ListStore::Capped(_) => self.capacities.light_indices.into(),
-            ListStore::Fixed(_) => self.lists_there() * u64::from(self.capacities.list_entries),
+            ListStore::Fixed(_) | ListStore::Linked(_) => {
+                self.lists_there() * u64::from(self.capacities.list_entries)
+            }
         }
     }
 
+    /// Words of the entries of all lists.
+    pub fn light_index_words(&self) -> u64 {
+        self.light_indices() * self.lists.links().map_or(1, |links| links.node.words())
+    }
+
     /// Lists that have entries of their own: of no more clusters than there are.
-    fn lists_there(&self) -> u64 {
+    pub fn lists_there(&self) -> u64 {
         self.visible().min(self.clusters)
     }
 
     /// Entries of each list, or most lights of one, where lists are bounded.
     pub fn list_bound(&self) -> u32 {
         match self.lists {
-            ListStore::Offsets => 0,
+            ListStore::Offsets | ListStore::Linked(_) => 0,
             ListStore::Fixed(_) => self.capacities.list_entries,
             ListStore::Capped(lights) => lights,
         }
@@ -132,7 +144,7 @@ impl ClusteringSizes {
 
     /// Whether lists are read off bits that are set while lights are met.
     pub fn has_masks(&self) -> bool {
-        self.lists.has_offsets() || self.assigner != Assigner::Brute
+        self.lists.has_offsets() || self.assigner != Assigner::Brute && self.lists.links().is_none()
     }
 
     /// Visible clusters that fit.
@@ -155,13 +167,12 @@ impl ClusteringSizes {
         if self.boxed { self.clusters } else { 0 }
     }
 
-    /// Entries of the offsets of lists: where each begins, and where the last one ends if it is not told by its length; none
-    /// without clusters.
+    /// Entries of the offsets of lists: where each begins, and where the last one ends if nothing else tells; none without clusters.
     pub(super) fn offsets(&self) -> u64 {
         match self.lists {
             ListStore::Offsets if self.visible() > 0 => self.visible() + 1,
             ListStore::Offsets | ListStore::Fixed(_) => 0,
-            ListStore::Capped(_) => self.visible(),
+            ListStore::Capped(_) | ListStore::Linked(_) => self.visible(),
         }
     }
 
@@ -246,22 +257,45 @@ impl ClusteringSizes {
             + slots * of(Owner::ClusteringFrame).map(size).sum::<u64>()
     }
 
+    /// Lists whose lengths are counted or kept.
+    pub(super) fn lengths(&self) -> u64 {
+        if self.lists.links().is_some() { 0 } else { self.visible() }
+    }
+
+    /// Refuses a pool of more nodes than links tell apart.
+    fn check_nodes(&self) -> Result<()> {
+        let most = self.lists.links().map_or(u64::MAX, |links| links.node.most_nodes());
+        if self.light_indices() <= most {
+            return Ok(());
+        }
+        Err(Error::Device(format!(
+            "lists {} hold at most {most} nodes, and {} clusters with up to {} each are more: use --lists linked-64, fewer lights or \
+             larger clusters",
+            self.lists, self.clusters, self.capacities.list_entries
+        )))
+    }
+
     /// The most entries that the device's buffers hold.
     pub fn most(&self, limits: &Limits) -> Capacities {
         let words = limits.max_storage_buffer_range / 4;
         let groups = u64::from(limits.max_compute_work_group_count[0]);
         let entries = |words: u64| u32::try_from(words).unwrap_or(u32::MAX);
         let indices = words.min(limits.max_texel_buffer_elements);
+        let nodes = self
+            .lists
+            .links()
+            .map_or(indices, |Links { node, .. }| (indices / node.words()).min(node.most_nodes()));
         Capacities {
             visible_clusters: entries((words - 1).min(groups * u64::from(ASSIGN_WORKGROUP))),
             light_indices: entries(indices),
-            list_entries: entries(indices / self.lists_there().max(1)),
+            list_entries: entries(nodes / self.lists_there().max(1)),
             octree: OctreeSizes::all(entries(indices)),
         }
     }
 
     /// Refuses what the device cannot hold or dispatch, naming the largest fault.
     pub fn check(&self, limits: &Limits) -> Result<()> {
+        self.check_nodes()?;
         for info in BufferName::ALL.map(BufferName::info) {
             let (name, size) = (info.name, info.size.map_or(0, |size| size(self)));
             let mend = match self.lists {

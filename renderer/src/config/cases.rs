@@ -2,7 +2,7 @@
 //! slices; and the way of assignment.
 
 use super::{Assign, Config, LightsFrom};
-use crate::assign::{Bounds, Clusters, Compaction, Marking, check_one_pass};
+use crate::assign::{Bounds, Clusters, Compaction, Marking, check_links, check_one_pass};
 use crate::geometry::{CellShape, SliceLaw, SphereTest, VolumeTest};
 use crate::methods::Method;
 use crate::nearest;
@@ -201,11 +201,13 @@ impl Config {
     }
 
     fn check_lists(&self) -> Result<(), String> {
-        let brute =
-            self.assign.first() == Some(&Assign::Brute) && self.methods.first().is_some_and(Method::assigns);
-        match (self.lists.first(), self.lights_of_run().lighting()) {
-            (Some(&lists), Some(lighting)) if brute => check_one_pass(lists, lighting.count),
-            _ => Ok(()),
+        let with_lists = self.methods.first().filter(|method| method.assigns());
+        let (Some(method), Some(&lists)) = (with_lists, self.lists.first()) else { return Ok(()) };
+        let lights = self.lights_of_run().lighting().map_or(0, |lighting| lighting.count);
+        check_links(lists, method, lights)?;
+        match method.takes_ways() && self.assign.first() == Some(&Assign::Brute) {
+            true => check_one_pass(lists, lights),
+            false => Ok(()),
         }
     }
 

@@ -70,7 +70,7 @@ impl From<Assigner> for Assign {
     fn from(assigner: Assigner) -> Self {
         match assigner {
             // Rasterisation is its methods' own, whatever way is named.
-            Assigner::Brute | Assigner::Raster => Self::Brute,
+            Assigner::Brute | Assigner::Raster | Assigner::RasterCount => Self::Brute,
             Assigner::Hierarchy => Self::Hierarchy,
             Assigner::Scatter => Self::Scatter,
             Assigner::Rectangles => Self::Rectangles,

@@ -125,8 +125,8 @@ pub(super) fn slices(_: &mut SchemaGenerator) -> Schema {
 pub(super) fn lists(_: &mut SchemaGenerator) -> Schema {
     one_or_several(&json_schema!({
         "type": "string",
-        "pattern": "^(offsets|(fixed|capped)-[1-9][0-9]*)$",
-        "examples": ["offsets", "fixed-128", "capped-100"]
+        "pattern": "^(offsets|(fixed|capped)-[1-9][0-9]*|linked-(32|64)(-unsorted)?)$",
+        "examples": ["offsets", "fixed-128", "capped-100", "linked-64"]
     }))
 }
 

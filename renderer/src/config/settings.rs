@@ -276,8 +276,10 @@ settings! {
         check(values::check_ways)
     }
     /// How the light lists lie in memory: `offsets` (one behind the other, once their lengths are counted), `fixed-N` (N entries
-    /// each, and more where a list needs more), or `capped-N` (each in a range that a counter hands out, of its first N lights: the
-    /// others are dropped, and counted). Of several, with commas between, each is a run of every method.
+    /// each, and more where a list needs more), `capped-N` (each in a range that a counter hands out, of its first N lights: the
+    /// others are dropped, and counted), or, of methods that rasterise meshes, `linked-64` and `linked-32` (from node to node, of so many
+    /// bits), which are sorted once they are filled but with `-unsorted` behind, when sums of light differ from run to run in
+    /// their last bits. Of several, with commas between, each is a run of every method.
     lists: Vec<ListStore> = vec![ListStore::Offsets], Run {
         arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::list_store)
         serde(default, deserialize_with = "de::ways")

@@ -1,7 +1,6 @@
 //! Buffers that turn out too small: the frame is rendered again with larger ones.
 
 use super::{Commands, Engine, FramePlan, Session};
-use crate::assign::Assigner;
 use crate::gpu_interface::ClusteringState;
 use crate::lights::FrameLights;
 use crate::measure::{Capacities, GrowthEvent};
@@ -57,10 +56,11 @@ impl Engine {
         let states = self.states(session, slot);
         self.check_masks(&states, frame)?;
         let most = self.sizes.most(&session.context.limits);
-        let capacities = &mut self.sizes.capacities;
+        let is_linked = self.lists.links().is_some();
         let visible = most_needed(&states, |state| state.visible_total);
-        let indices = most_needed(&states, |state| state.index_total);
-        let entries = most_needed(&states, |state| state.longest);
+        let indices = most_needed(&states, |state| if is_linked { 0 } else { state.index_total });
+        let entries = most_needed(&states, |state| self.entries_needed(state));
+        let capacities = &mut self.sizes.capacities;
         for (buffer, capacity, (clustering, needed), most) in [
             ("visible_clusters", &mut capacities.visible_clusters, visible, most.visible_clusters),
             ("light_indices", &mut capacities.light_indices, indices, most.light_indices),
@@ -89,20 +89,28 @@ impl Engine {
         )))
     }
 
+    /// Entries that each list needs, of one size or on average in a pool.
+    fn entries_needed(&self, state: &ClusteringState) -> u32 {
+        match self.lists.links() {
+            Some(_) => u64::from(state.index_total).div_ceil(self.sizes.lists_there().max(1)) as u32,
+            None => state.longest,
+        }
+    }
+
     fn lacks_masks(&self, state: &ClusteringState) -> bool {
-        !self.lists.has_offsets() && self.assigner != Assigner::Brute && state.masked == 0
+        !self.lists.has_offsets() && self.sizes.has_masks() && state.masked == 0
     }
 
     /// Whether the frame that ended in `slot` needed more than the buffers hold.
     pub fn overflowed(&self, session: &Session, slot: usize) -> bool {
-        let Capacities { visible_clusters, light_indices, .. } = self.sizes.capacities;
+        let Capacities { visible_clusters, .. } = self.sizes.capacities;
         let mut state = [ClusteringState::default()];
         self.method.assigns()
             && (0..self.clusterings.len() as u64).any(|clustering| {
                 session.frame_slots[slot].states.read_into(clustering * STATE_BYTES, &mut state);
                 let ClusteringState { visible_total, index_total, longest, .. } = state[0];
                 visible_total > visible_clusters
-                    || index_total > light_indices
+                    || u64::from(index_total) > self.sizes.light_indices()
                     || longest > 0
                     || self.lacks_masks(&state[0])
             })

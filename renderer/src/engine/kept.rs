@@ -1,7 +1,7 @@
 //! Light lists as their store keeps them, read back and put in the order of their clusters: whatever the store, and whichever
 //! places clusters have, what comes out is the same.
 
-use crate::assign::ListStore;
+use crate::assign::{ListStore, NodeLayout};
 use crate::buffers::ClusteringSizes;
 use crate::gpu_interface::ClusteringState;
 use std::ops::Range;
@@ -28,6 +28,10 @@ impl KeptLists<'_> {
             ListStore::Offsets => [visible, visible + 1, 0, state.index_total.into()],
             ListStore::Fixed(_) => [visible, 0, visible, visible * u64::from(sizes.list_bound())],
             ListStore::Capped(_) => [visible, visible, visible, state.index_total.into()],
+            ListStore::Linked(links) => {
+                let nodes = u64::from(state.index_total).min(sizes.light_indices());
+                [visible, visible, 0, nodes * links.node.words()]
+            }
         }
     }
 
@@ -38,17 +42,24 @@ impl KeptLists<'_> {
         places
     }
 
-    /// Offsets and lights of the lists at these places, one behind the other.
+    /// Offsets and lights of the lists at these places, one behind the other; each list by ascending light.
     pub fn in_order(&self, order: &[usize]) -> (Vec<u32>, Vec<u32>) {
         let (mut offsets, mut indices) = (vec![0], Vec::with_capacity(self.indices.len()));
         for &place in order {
-            indices.extend_from_slice(&self.indices[self.range(place)]);
+            match self.sizes.lists.links() {
+                None => indices.extend_from_slice(&self.indices[self.range(place)]),
+                Some(links) => {
+                    let first = indices.len();
+                    indices.extend(walk(links.node, self.indices, self.offsets[place]));
+                    indices[first..].sort_unstable();
+                }
+            }
             offsets.push(indices.len() as u32);
         }
         (offsets, indices)
     }
 
-    /// Where the list at a place lies among the indices.
+    /// Where the list at a place lies among the indices, if it lies in one piece.
     fn range(&self, place: usize) -> Range<usize> {
         match self.sizes.lists {
             ListStore::Offsets => self.offsets[place] as usize..self.offsets[place + 1] as usize,
@@ -61,16 +72,32 @@ impl KeptLists<'_> {
                 let first = self.offsets[place] as usize;
                 first..first + self.lengths[place] as usize
             }
+            ListStore::Linked(_) => 0..0,
         }
     }
 
     /// How many lights all lists should have; of capped ones, those that were not dropped.
     pub fn wanted(&self, state: &ClusteringState) -> u64 {
         match self.sizes.lists {
-            ListStore::Offsets | ListStore::Capped(_) => state.index_total.into(),
+            ListStore::Offsets | ListStore::Capped(_) | ListStore::Linked(_) => state.index_total.into(),
             ListStore::Fixed(_) => self.lengths.iter().map(|&length| u64::from(length)).sum(),
         }
     }
+}
+
+/// The lights of a linked list that begins at a node of a pool, in the order in which it is walked.
+pub fn walk(layout: NodeLayout, pool: &[u32], first: u32) -> impl Iterator<Item = u32> {
+    let node = move |at: u32| {
+        let at = at as usize;
+        match layout {
+            NodeLayout::Bits64 => {
+                let node = pool.get(2 * at..)?.first_chunk::<2>()?;
+                Some((node[0] & 0xFF_FFFF, node[1]))
+            }
+            NodeLayout::Bits32 => pool.get(at).map(|node| (node >> 20, node & 0xF_FFFF)),
+        }
+    };
+    std::iter::successors(node(first), move |&(_, next)| node(next)).map(|(light, _)| light)
 }
 
 #[cfg(test)]

@@ -3,8 +3,8 @@
 use super::FramePlan;
 use super::lights::Room;
 use crate::assign::{
-    Assigner, ClusterBounds, Clusters, Compaction, ListStore, check_one_pass, check_sorted_slices,
-    check_sorted_tiles,
+    Assigner, ClusterBounds, Clusters, Compaction, ListStore, NODES_PER_CLUSTER, check_links, check_one_pass,
+    check_sorted_slices, check_sorted_tiles,
 };
 use crate::buffers::ClusteringSizes;
 use crate::config::Config;
@@ -108,9 +108,9 @@ impl Chosen {
         let sorted = method.tile_pixels(run.resolution).filter(|_| compaction == Compaction::Sort);
         Self {
             method,
-            assigner: match (assigns, method.is_rasterised()) {
-                (true, true) => Assigner::Raster,
-                (true, false) => mode.assigner,
+            assigner: match (assigns, method.rasterising()) {
+                (true, Some(rasterising)) => rasterising,
+                (true, None) => mode.assigner,
                 (false, _) => Assigner::Brute,
             },
             clusters,
@@ -151,6 +151,9 @@ impl Chosen {
     /// # Errors
     /// Says how many there are, and how many there may be.
     pub fn check(&self, models: u32, lights: u32) -> Result<()> {
+        if self.method.assigns() {
+            check_links(self.lists, &self.method, lights).map_err(Error::Input)?;
+        }
         if self.assigner == Assigner::Brute {
             check_one_pass(self.lists, lights).map_err(Error::Input)?;
         }
@@ -165,12 +168,18 @@ impl Chosen {
 
     /// What is kept of lights.
     pub fn room(&self, mode: &Mode) -> Room {
-        Room { tally: mode.lights, meshes: self.assigner == Assigner::Raster }
+        Room { tally: mode.lights, meshes: self.assigner.rasterises() }
     }
 
     /// What is asked of cones; nothing where no light has one.
     pub fn cones(&self, mode: &Mode) -> ConeTest {
         if mode.lights.spots { self.test.cone } else { ConeTest::Unasked }
+    }
+
+    /// Whether the boxes around cells are tested.
+    fn keeps_boxes(&self) -> bool {
+        let cells = self.method.kind().cells();
+        !self.assigner.rasterises() && cells.is_some_and(|cells| cells.keeps_boxes(self.test.sphere))
     }
 
     /// What the shaders of the engine are specialised for.
@@ -210,6 +219,10 @@ impl Chosen {
         let kind = self.method.kind();
         let list_entries = match self.lists {
             ListStore::Fixed(entries) => entries.max(mode.capacities.list_entries),
+            ListStore::Linked(links) => {
+                let most = links.node.most_nodes() / clusters.max(1);
+                u64::from(NODES_PER_CLUSTER).min(most).max(mode.capacities.list_entries.into()) as u32
+            }
             ListStore::Offsets | ListStore::Capped(_) => 0,
         };
         let capacities = self.method.capacities(clusters, self.clusters, mode.capacities);
@@ -219,7 +232,7 @@ impl Chosen {
             listed: self.clusters,
             bounds: self.bounds,
             normal_cones: self.normal_cones,
-            boxed: kind.cells().is_some_and(|cells| cells.keeps_boxes(self.test.sphere)),
+            boxed: self.keeps_boxes(),
             compaction: self.compaction,
             lists: self.lists,
             slice_planes,

@@ -3,7 +3,7 @@
 use super::grid::{GridMethod, Space};
 use super::sizes::{DEPTH, NODE, SLICES, Size, Sizes, Unit};
 use super::{HashedMethod, Method, NodeSize, Sharing, WorldGrid};
-use crate::assign::{Bounds, Clusters};
+use crate::assign::{Assigner, Bounds, Clusters};
 use crate::geometry::{CellShape, SliceLaw, SphereTest};
 
 /// What fragments that share a light list are grouped by, and who makes the lists.
@@ -60,7 +60,7 @@ const PERSPECTIVE: Kind = Kind {
 
 /// Every kind of method. All serve transparent geometry, all views in stereo, and any number of samples (models: where fragments
 /// run for each).
-pub static KINDS: [Kind; 22] = [
+pub static KINDS: [Kind; 24] = [
     Kind {
         name: "indi-persp",
         sizes: &["PIXELS"],
@@ -228,7 +228,7 @@ pub static KINDS: [Kind; 22] = [
         title: "Raster E",
         about: "so many tiles and slices, these geometric behind the first; all clusters that the mesh around a light meets have it",
         groups: Groups::Cells(CellShape::BoxedFrustum),
-        make: |sizes| rasterised(SliceLaw::SecondPlane { metres: SECOND_PLANE }, sizes),
+        make: |sizes| rasterised(Assigner::Raster, SLICES_E, sizes),
         ..PERSPECTIVE
     },
     Kind {
@@ -239,7 +239,29 @@ pub static KINDS: [Kind; 22] = [
         title: "Raster L",
         about: "the same, in slices of equal depth",
         groups: Groups::Cells(CellShape::BoxedFrustum),
-        make: |sizes| rasterised(SliceLaw::Linear, sizes),
+        make: |sizes| rasterised(Assigner::Raster, SliceLaw::Linear, sizes),
+        ..PERSPECTIVE
+    },
+    Kind {
+        name: "raster-count",
+        suffix: "-e",
+        sizes: &["COLUMNS", "ROWS", SLICES],
+        tuned: &[24.0, 12.0, 64.0],
+        title: "Raster Count E",
+        about: "lists of raster, a light at a time: no slices of meshes are kept",
+        groups: Groups::Cells(CellShape::BoxedFrustum),
+        make: |sizes| rasterised(Assigner::RasterCount, SLICES_E, sizes),
+        ..PERSPECTIVE
+    },
+    Kind {
+        name: "raster-count",
+        suffix: "-l",
+        sizes: &["COLUMNS", "ROWS", SLICES],
+        tuned: &[24.0, 12.0, 128.0],
+        title: "Raster Count L",
+        about: "the same, in slices of equal depth",
+        groups: Groups::Cells(CellShape::BoxedFrustum),
+        make: |sizes| rasterised(Assigner::RasterCount, SliceLaw::Linear, sizes),
         ..PERSPECTIVE
     },
     Kind {
@@ -300,14 +322,14 @@ pub static KINDS: [Kind; 22] = [
     },
 ];
 
-/// Depth of the second plane of the exponential law, metres.
-const SECOND_PLANE: f64 = 5.0;
+/// Örtegren's exponential law.
+const SLICES_E: SliceLaw = SliceLaw::SecondPlane { metres: 5.0 };
 
 /// Tiles and slices, all with lists, to which meshes around lights are rasterised (Örtegren and Persson).
-fn rasterised(slices: SliceLaw, sizes: &Sizes) -> Method {
+fn rasterised(rasterising: Assigner, slices: SliceLaw, sizes: &Sizes) -> Method {
     let space = Space::Counted { columns: sizes[0], rows: sizes[1], slices: sizes[2] };
     let grid = GridMethod::new(Sharing::Indi, space);
-    Method::Grid(GridMethod { clusters: Clusters::All, slices, rasterised: true, ..grid })
+    Method::Grid(GridMethod { clusters: Clusters::All, slices, rasterising: Some(rasterising), ..grid })
 }
 
 fn displ(sharing: Sharing, sizes: &Sizes) -> Method {
@@ -395,7 +417,15 @@ impl Method {
 
     /// Whether it makes its lists in a way of its own, so that neither ways of assignment nor tests bear on it.
     pub fn is_rasterised(&self) -> bool {
-        matches!(self, Self::Grid(GridMethod { rasterised: true, .. }))
+        self.rasterising().is_some()
+    }
+
+    /// How it makes its lists where that is by rasterising meshes.
+    pub fn rasterising(&self) -> Option<Assigner> {
+        match self {
+            Self::Grid(grid) => grid.rasterising,
+            Self::World(_) | Self::Models | Self::Hashed(_) | Self::AllLights => None,
+        }
     }
 
     /// Whether ways of assignment and tests of lights bear on the method.

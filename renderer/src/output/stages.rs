@@ -13,7 +13,7 @@ pub struct StageMinima {
 pub const FRAME: &str = "frame";
 
 /// What it takes to know the lengths of the light lists, from lights as the frame has them.
-pub const COUNTING: [&str; 10] = [
+pub const COUNTING: [&str; 14] = [
     "frame/cluster/transform_lights",
     "frame/cluster/cull_lights",
     "frame/cluster/build_hierarchy",
@@ -23,15 +23,23 @@ pub const COUNTING: [&str; 10] = [
     "frame/cluster/mesh_frames",
     "frame/cluster/shell_points",
     "frame/cluster/shell_spots",
-    "frame/cluster/fill_clusters",
+    "frame/cluster/clear_lists",
+    "frame/cluster/fill_points",
+    "frame/cluster/fill_spots",
+    "frame/cluster/count_points",
+    "frame/cluster/count_spots",
 ];
 
 /// Where each list begins.
 const OFFSETS: &str = "frame/cluster/light_offsets";
 
 /// Writing of the light lists.
-pub const ASSIGNING: [&str; 3] =
-    ["frame/cluster/assign_lights", "frame/cluster/fill_rectangles", "frame/cluster/write_lists"];
+pub const ASSIGNING: [&str; 4] = [
+    "frame/cluster/assign_lights",
+    "frame/cluster/fill_rectangles",
+    "frame/cluster/write_lists",
+    "frame/cluster/sort_lists",
+];
 
 /// What frames do only where that which it is made of has changed.
 const ON_CHANGE: &str = "frame/cluster/build_boxes";

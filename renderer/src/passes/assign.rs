@@ -6,11 +6,11 @@
 //! hierarchy   light_nodes ────────────────────────────────> meet ┼> light_masks ─> list_lengths, then light_indices
 //! scatter     candidates ─> groups ─> packets, group_lights ─> meet ┤
 //! rectangles  light_rectangles, cluster_bits ─────────────> meet ┤
-//! raster      shell_ranges ───────────────────────────────> meet ┘
+//! raster      shell_ranges, or meshes themselves ─────────> meet ┘
 //! ```
 //!
-//! Rectangles call the stages `light_rectangles`, `count_rectangles` and `fill_rectangles` (Tegelaers section 5.2), meshes
-//! `fill_clusters` and `write_lists`.
+//! Rectangles call the stages `light_rectangles`, `count_rectangles` and `fill_rectangles` (Tegelaers section 5.2). Meshes have
+//! stages of their own, of each kind of light ([`raster`]).
 //!
 //! Where the masks have no room the device sizes the dispatches otherwise: pairs are found twice, counted first and then
 //! written, and the lists are sorted. Lists that are not by offsets are empty then, which the host refuses.
@@ -24,6 +24,7 @@
 use super::handles::{LightLists, Lights, VisibleClusters};
 use super::inputs::Frame;
 use super::lights;
+use super::raster;
 use super::scan::group_packets;
 use crate::assign::{Assigner, ClusterBounds, ListStore};
 use crate::buffers::{BufferName as B, BufferSet, set};
@@ -64,28 +65,50 @@ fn stages(assigner: Assigner) -> [&'static str; 2] {
     match assigner {
         Assigner::Brute | Assigner::Hierarchy | Assigner::Scatter => ["count_lights", "assign_lights"],
         Assigner::Rectangles => ["count_rectangles", "fill_rectangles"],
-        Assigner::Raster => ["fill_clusters", "write_lists"],
+        Assigner::Raster | Assigner::RasterCount => ["count_lights", "write_lists"],
     }
 }
 
 /// Lengths of the lists.
 pub fn count_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
+    if frame.assigner.rasterises() {
+        return raster::count_lights(r, frame, visible);
+    }
     let [stage, _] = stages(frame.assigner);
     r.scope(stage, |r| {
         let pipelines = frame.pipelines.clustered();
-        let (reads, writes) = (set(&[B::State]), set(&[B::LightMasks, B::ListLengths]));
-        indirect(r, frame, visible, (&pipelines.clear_lists, DISPATCH_LISTS), (reads, writes));
+        clear_lists(r, frame, visible);
         if frame.assigner == Assigner::Scatter {
             to_groups(r, frame, visible);
         }
         let writes = set(&[B::LightMasks, B::ListLengths, B::Counters]);
-        meet(r, frame, visible, (&pipelines.meet[0], DISPATCH_MEET), (reads, writes));
+        for [meets, _] in &pipelines.meet {
+            meet(r, frame, visible, (meets, DISPATCH_MEET), (set(&[B::State]), writes));
+        }
         // The others count a packet's lights as they set their bits.
-        if matches!(frame.assigner, Assigner::Hierarchy | Assigner::Rectangles | Assigner::Raster) {
-            let (reads, writes) = (set(&[B::State, B::LightMasks]), set(&[B::ListLengths]));
-            indirect(r, frame, visible, (&pipelines.read_masks[0], DISPATCH_MASKED), (reads, writes));
+        if matches!(frame.assigner, Assigner::Hierarchy | Assigner::Rectangles) {
+            count_bits(r, frame, visible);
         }
     });
+}
+
+/// Empties what counting adds to.
+pub(super) fn clear_lists(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
+    let writes = match frame.lists {
+        ListStore::Linked(_) => set(&[B::ListOffsets]),
+        ListStore::Offsets | ListStore::Fixed(_) | ListStore::Capped(_) => {
+            set(&[B::LightMasks, B::ListLengths])
+        }
+    };
+    let clear = (&*frame.pipelines.clustered().clear_lists, DISPATCH_LISTS);
+    indirect(r, frame, visible, clear, (set(&[B::State]), writes));
+}
+
+/// Lengths of lists from their bits.
+pub(super) fn count_bits(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
+    let (reads, writes) = (set(&[B::State, B::LightMasks]), set(&[B::ListLengths]));
+    let read_masks = (&*frame.pipelines.clustered().read_masks[0], DISPATCH_MASKED);
+    indirect(r, frame, visible, read_masks, (reads, writes));
 }
 
 /// The lists themselves, each by ascending light.
@@ -97,10 +120,9 @@ pub fn assign_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) 
             sort_lists(r, frame, visible);
         }
         (ListStore::Fixed(_) | ListStore::Capped(_), Assigner::Brute) => collect(r, frame, visible),
-        (
-            ListStore::Fixed(_) | ListStore::Capped(_),
-            Assigner::Hierarchy | Assigner::Scatter | Assigner::Rectangles | Assigner::Raster,
-        ) => keep_lists(r, frame, visible),
+        (ListStore::Fixed(_) | ListStore::Capped(_), _) => keep_lists(r, frame, visible),
+        // Nodes have linked them.
+        (ListStore::Linked(_), _) => {}
     });
     LightLists::of(visible)
 }
@@ -119,7 +141,7 @@ fn collect(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
 fn keep_lists(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
     let writes = match frame.lists {
         ListStore::Capped(_) => KEPT | set(&[B::Counters]),
-        ListStore::Offsets | ListStore::Fixed(_) => KEPT,
+        ListStore::Offsets | ListStore::Fixed(_) | ListStore::Linked(_) => KEPT,
     };
     let read_masks = (&*frame.pipelines.clustered().read_masks[1], DISPATCH_LISTS);
     indirect(r, frame, visible, read_masks, (set(&[B::LightMasks, B::Candidates]), writes));
@@ -132,7 +154,9 @@ pub(crate) fn write_lists(r: &mut Recorder, frame: &Frame, visible: VisibleClust
     let reads = offsets | set(&[B::LightMasks, B::Candidates]);
     indirect(r, frame, visible, (&pipelines.read_masks[1], DISPATCH_MASKED), (reads, indices));
     let writes = indices | set(&[B::ListLengths]);
-    meet(r, frame, visible, (&pipelines.meet[1], DISPATCH_MEET_AGAIN), (offsets, writes));
+    for [_, meets] in &pipelines.meet {
+        meet(r, frame, visible, (meets, DISPATCH_MEET_AGAIN), (offsets, writes));
+    }
 }
 
 /// Sorts lists that were written in any order.
@@ -153,7 +177,7 @@ fn to_groups(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
 }
 
 /// Finds the pairs of light and visible cluster that meet, by what the way at hand has made of the lights.
-fn meet(
+pub(super) fn meet(
     r: &mut Recorder,
     frame: &Frame,
     visible: VisibleClusters,
@@ -165,7 +189,8 @@ fn meet(
         Assigner::Brute => cells | set(&[B::LightVolumes]),
         Assigner::Hierarchy => cells | set(&[B::TreeVolumes, B::TreeLights, B::LightNodes]),
         Assigner::Scatter => cells | set(&[B::LightVolumes, B::Groups, B::PacketGroups, B::GroupLights]),
-        Assigner::Raster => frame.places() | set(&[B::ShellRanges]),
+        Assigner::Raster => frame.places() | set(&[B::LightFrames, B::ShellRanges]),
+        Assigner::RasterCount => frame.places() | set(&[B::LightFrames]),
         Assigner::Rectangles => frame.places() | set(&[B::LightRectangles]) | measured(frame),
     };
     let reads = reads | met;
@@ -198,7 +223,7 @@ fn boxes(frame: &Frame) -> BufferSet {
 }
 
 /// Runs a pipeline with a size that the device wrote.
-fn indirect(
+pub(super) fn indirect(
     r: &mut Recorder,
     frame: &Frame,
     visible: VisibleClusters,

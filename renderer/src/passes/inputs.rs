@@ -212,7 +212,14 @@ impl Frame<'_> {
                 ListStore::Offsets => set(&[B::ListOffsets]),
                 ListStore::Fixed(_) => set(&[B::ListLengths]),
                 ListStore::Capped(_) => set(&[B::ListOffsets, B::ListLengths]),
+                ListStore::Linked(_) => set(&[B::ListOffsets]),
             }
+    }
+
+    /// What tells how long the list of a group is.
+    pub fn list_lengths(&self) -> BufferSet {
+        let nodes = self.lists.links().map_or(BufferSet::EMPTY, |_| set(&[B::LightIndices]));
+        self.list_places() | nodes
     }
 
     /// What tells the lights of a fragment that is shaded.

@@ -34,7 +34,7 @@ pub(super) fn look_up(
     (to, offset): (&Buffer, u64),
 ) {
     pixel_models::record(r, frame, (view, clustering));
-    let looked_up = frame.list_places() | set(&[B::VisibleFragments]);
+    let looked_up = frame.list_lengths() | set(&[B::VisibleFragments]);
     let declared = (looked_up, set(&[B::Pixels]));
     let dispatch =
         Dispatch::new(pipeline, frame.buffers(clustering), Size::pixels(frame.resolution), declared);

@@ -31,16 +31,11 @@ impl Maker<'_> {
         twice(self.store, path, &self.defines, define)
     }
 
-    /// A shader that asks what a volume meets, twice: with `define` 0 and 1.
-    fn both_tests(&mut self, path: &str, define: &'static str) -> Result<[Arc<Pipeline>; 2]> {
-        twice(self.store, path, &self.tests, define)
-    }
-
     /// What takes lights to lists in one pass, where there is such.
     fn collect(&mut self) -> Result<Option<Arc<Pipeline>>> {
         let Variant { assigner, lists, .. } = *self.variant;
         let kept = match lists {
-            ListStore::Offsets => return Ok(None),
+            ListStore::Offsets | ListStore::Linked(_) => return Ok(None),
             // They lie in memory at once.
             ListStore::Fixed(_) => 0,
             ListStore::Capped(lights) => lights,
@@ -80,24 +75,47 @@ impl Maker<'_> {
         wanted.then(|| self.tests("assign/light_rectangles.comp")).transpose()
     }
 
-    /// Finding where meshes around lights lie, where these are rasterised.
-    fn raster(&mut self) -> Result<Option<RasterPipelines>> {
-        if self.variant.assigner != Assigner::Raster {
-            return Ok(None);
-        }
-        let frames = self.lists("raster/mesh_frames.comp")?;
-        let (mut first_vertex, mut first_triangle, mut shells) = (0, 0, vec![]);
+    /// Defines of shaders that take meshes of one kind: of points, then of spots where there are such.
+    fn mesh_defines(&self) -> Vec<Defines> {
+        let (mut first_vertex, mut first_triangle) = (0, 0);
         let kinds = ["MESH_SPHERE", "MESH_SPOT"].into_iter().zip(MeshKind::RASTERISED);
-        for (name, kind) in kinds.take(if self.variant.spots { 2 } else { 1 }) {
+        let of = |(name, kind)| {
             let LightMesh { vertices, triangles } = LightMesh::new(kind);
             let defines = self.defines.with("MESH", name).with("MESH_VERTICES", vertices.len());
             let defines = defines.with("MESH_TRIANGLES", triangles.len());
             let defines = defines.with("FIRST_VERTEX", first_vertex).with("FIRST_TRIANGLE", first_triangle);
-            shells.push(self.store.compute("raster/shell.comp", &defines)?);
             first_vertex += vertices.len();
             first_triangle += triangles.len();
+            defines
+        };
+        kinds.take(if self.variant.spots { 2 } else { 1 }).map(of).collect()
+    }
+
+    /// Finding where meshes around lights lie, where these are rasterised.
+    fn raster(&mut self) -> Result<Option<RasterPipelines>> {
+        if !self.variant.assigner.rasterises() {
+            return Ok(None);
         }
-        Ok(Some(RasterPipelines { frames, shells }))
+        let frames = self.lists("raster/mesh_frames.comp")?;
+        let shells = match self.variant.assigner {
+            Assigner::Raster => self.mesh_defines(),
+            _ => vec![],
+        };
+        let shells = shells.iter().map(|defines| self.store.compute("raster/shell.comp", defines));
+        let shells = shells.collect::<Result<_>>()?;
+        let sorts = self.variant.lists.links().is_some_and(|links| links.sorted);
+        let sort_nodes = sorts.then(|| self.lists("raster/sort_nodes.comp")).transpose()?;
+        Ok(Some(RasterPipelines { frames, shells, sort_nodes }))
+    }
+
+    /// What finds the pairs that meet: counts or links them, and writes lists. Of meshes, points and spots apart.
+    fn meet(&mut self) -> Result<Vec<[Arc<Pipeline>; 2]>> {
+        let path = meet(self.variant.assigner);
+        let defines = match self.variant.assigner.rasterises() {
+            true => self.mesh_defines(),
+            false => vec![self.tests.clone()],
+        };
+        defines.iter().map(|defines| twice(self.store, path, defines, "WRITE_LISTS")).collect()
     }
 
     fn scan(&mut self, items: &str) -> Result<ScanPipelines> {
@@ -115,6 +133,8 @@ pub struct RasterPipelines {
     pub frames: Arc<Pipeline>,
     /// The slices of points' meshes, then of spots' where there are such.
     pub shells: Vec<Arc<Pipeline>>,
+    /// Sorts lists that are linked, where that is wanted.
+    pub sort_nodes: Option<Arc<Pipeline>>,
 }
 
 /// Sorts the samples of tiles by their slices, and lists the clusters that hold some.
@@ -179,7 +199,8 @@ pipelines! {
         /// Empties what counting fills in any order.
         clear_lists: Arc<Pipeline> = make.lists("assign/clear_lists.comp");
         /// Pairs of light and cluster that meet: to bits or lengths of lists, and once more, to the lists, in any order.
-        meet: [Arc<Pipeline>; 2] = make.both_tests(meet(make.variant.assigner), "WRITE_LISTS");
+        /// Of meshes, those of points, then those of spots.
+        meet: Vec<[Arc<Pipeline>; 2]> = make.meet();
         /// Lengths of lists, and the lists, from their bits.
         read_masks: [Arc<Pipeline>; 2] = make.both("assign/read_masks.comp", "WRITE_LISTS");
         /// Lights to lists by brute force in one pass.
@@ -250,5 +271,6 @@ fn meet(assigner: Assigner) -> &'static str {
         Assigner::Scatter => "assign/scatter.comp",
         Assigner::Rectangles => "assign/rectangles.comp",
         Assigner::Raster => "raster/fill.comp",
+        Assigner::RasterCount => "raster/count.comp",
     }
 }

@@ -176,6 +176,7 @@ impl Variant {
             ListStore::Offsets => "LISTS_OFFSETS",
             ListStore::Fixed(_) => "LISTS_FIXED",
             ListStore::Capped(_) => "LISTS_CAPPED",
+            ListStore::Linked(_) => "LISTS_LINKED",
         };
         self.surface_defines()
             .with("LOOKUP", self.lookup)
@@ -184,6 +185,7 @@ impl Variant {
             .with("BOUNDS", bounds)
             .with("COMPACTION", compaction)
             .with("LISTS", lists)
+            .with("NODE_WORDS", self.lists.links().map_or(0, |links| links.node.words()))
             .with("SLICES", self.slices_define())
             .with("LEAVES", u32::from(self.groups == Groups::Leaves))
             .with("SPOTS", u32::from(self.spots))
@@ -216,7 +218,7 @@ impl Variant {
 
     /// Whether the boxes around the pieces of a frustum are tested, as they are kept.
     pub(super) fn is_boxed(&self) -> bool {
-        self.cells().is_some_and(|cells| cells.keeps_boxes(self.test.sphere))
+        !self.assigner.rasterises() && self.cells().is_some_and(|cells| cells.keeps_boxes(self.test.sphere))
     }
 
     /// Definitions for shaders that build lists.
@@ -227,6 +229,7 @@ impl Variant {
             Assigner::Scatter => "ASSIGN_SCATTER",
             Assigner::Rectangles => "ASSIGN_RECTANGLES",
             Assigner::Raster => "ASSIGN_RASTER",
+            Assigner::RasterCount => "ASSIGN_RASTER_COUNT",
         };
         self.defines().with("ASSIGN", assigner)
     }

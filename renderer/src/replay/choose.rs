@@ -18,8 +18,8 @@ pub fn assigner(
     if !run.method.assigns() {
         return Ok(Assigner::Brute);
     }
-    if run.method.is_rasterised() {
-        return Ok(Assigner::Raster);
+    if let Some(rasterising) = run.method.rasterising() {
+        return Ok(rasterising);
     }
     match run.assign.fixed() {
         Some(assigner) => Ok(assigner),

@@ -1,6 +1,7 @@
 //! Writes the runs of one part as they come.
 
 use super::Part;
+use crate::assign::{ListStore, NODES_PER_CLUSTER};
 use crate::audience::Audience;
 use crate::config::Assign;
 use crate::inputs::Inputs;
@@ -151,9 +152,14 @@ impl RunSink for Files<'_> {
 /// What is good to know of lists that had to grow, or were too full for their lights.
 fn notes_of_lists(run: &PlannedRun, result: &RunResult) -> impl Iterator<Item = String> {
     let name = &run.name;
-    let (bound, entries) = (run.config.lists[0].bound(), result.capacities.list_entries);
-    let grown = (entries > bound)
-        .then(|| format!("{name}: lists of {bound} entries each were too short and have {entries} since"));
+    let (lists, entries) = (run.config.lists[0], result.capacities.list_entries);
+    let bound = lists.bound();
+    let grown = match lists {
+        ListStore::Linked(_) => (entries > NODES_PER_CLUSTER)
+            .then(|| format!("{name}: the pool of {NODES_PER_CLUSTER} nodes a cluster was too small and has {entries} since")),
+        ListStore::Offsets | ListStore::Fixed(_) | ListStore::Capped(_) => (entries > bound)
+            .then(|| format!("{name}: lists of {bound} entries each were too short and have {entries} since")),
+    };
     let dropped: u64 = result.counts.iter().map(|frame| frame.counters.lights_dropped).sum();
     let lossy = (dropped > 0).then(|| {
         format!(

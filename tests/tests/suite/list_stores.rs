@@ -3,6 +3,8 @@
 
 use manylight::assign::{Compaction, ListStore, Marking};
 use manylight::config::{Assign, Config, ExrFrames, FrameRange};
+use manylight::lights::Lighting;
+use manylight::shading::ShadingPipeline;
 use manylight_tests::program::{read, refused, small, stderr, succeed, text};
 use manylight_tests::{Run, assert_equal_the_truth, manylight, methods, run};
 
@@ -82,6 +84,36 @@ fn every_store_by_hierarchy() {
 #[test]
 fn every_store_by_scatter() {
     grow(("bistro-vive", 1), Assign::Scatter, &FEW);
+}
+
+/// Lists of nodes have the lights of offsets, in another order, and pools grow; sorted ones make the same pictures again.
+#[test]
+fn linked_lists_shade_what_offsets_do() {
+    let stores = ["offsets", "linked-64", "linked-32", "linked-64-unsorted"];
+    let config = |pipeline, names: &[&str]| Config {
+        lists: stores.iter().map(|name| name.parse().unwrap()).collect(),
+        pipeline: vec![pipeline],
+        lights: vec![Lighting { intensity: 40.0, ..Lighting::with_count(600) }],
+        spots: 0.5.try_into().unwrap(),
+        ..config("bistro-vive", 1, names)
+    };
+    for pipeline in [ShadingPipeline::Forward, ShadingPipeline::Deferred] {
+        let runs = run(config(pipeline, &["all-lights", "raster-1-1-2-e", "raster-count-4-3-6-l"]));
+        assert_equal_the_truth(&runs, Marking::Depth);
+        for of_method in runs[1..].chunks(stores.len()) {
+            for linked in &of_method[1..] {
+                let name = &linked.planned.name;
+                assert_eq!(linked.counts, of_method[0].counts, "{name}: counters");
+                assert!(linked.lists == of_method[0].lists, "{name}: lists");
+                let grown = linked.result.growth.iter().any(|event| event.buffer == "list_entries");
+                assert_eq!(grown, name.starts_with("raster-1-1-2-e"), "{name}");
+            }
+        }
+        let again = run(config(pipeline, &["raster-1-1-2-e"]));
+        for (first, again) in runs[2..4].iter().zip(&again[1..3]) {
+            assert!(first.images == again.images, "{}: pictures", again.planned.name);
+        }
+    }
 }
 
 /// The truth knows no lists.
@@ -234,6 +266,7 @@ fn what_cannot_be_is_refused_in_one_line() {
         (&["--lists", "fixed-0"][..], "no whole number from 1"),
         (&["--lists", "capped-5000"], "no whole number from 1 to 1024"),
         (&["--lists", "linked"], "no store of lists"),
+        (&["--lists", "linked-64"], "indi-persp-64 tests lights"),
         (&["--compaction", "sorted"], "sorted"),
         (&["--compaction", "atomic", "--assign", "scatter"], "no neighbours"),
         (&["--compaction", "atomic", "--clusters", "all"], "all clusters of"),

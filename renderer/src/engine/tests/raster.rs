@@ -4,7 +4,9 @@ use super::bounds::with_clusters;
 use super::boxes::{by_law, sliced};
 use super::cones::mixed;
 use super::*;
-use crate::geometry::{ClusterSpace, LightMesh, MeshKind, SliceLaw, SphereLevel, VolumeTest};
+use crate::assign::{Links, ListStore, NODES_PER_CLUSTER};
+use crate::engine::kept;
+use crate::geometry::{ClusterSpace, LightMesh, MeshKind, SliceLaw, Slices, SphereLevel, VolumeTest};
 use crate::gpu_interface::{GridData, MeshFrame};
 
 /// What a device has of a grid, as far as shells ask it.
@@ -43,8 +45,11 @@ fn lists(name: &str, law: SliceLaw, lights: &[Light]) -> (Lists, Vec<u32>, Vec<M
     (lists, clusters, frames)
 }
 
-const METHODS: [(&str, SliceLaw); 2] =
-    [("raster-13-9-21-e", SliceLaw::SecondPlane { metres: 5.0 }), ("raster-13-9-21-l", SliceLaw::Linear)];
+const METHODS: [(&str, SliceLaw); 3] = [
+    ("raster-13-9-21-e", SliceLaw::SecondPlane { metres: 5.0 }),
+    ("raster-13-9-21-l", SliceLaw::Linear),
+    ("raster-count-13-9-21-e", SliceLaw::SecondPlane { metres: 5.0 }),
+];
 
 #[test]
 fn lists_are_those_of_the_shells_on_the_host() {
@@ -82,5 +87,67 @@ fn no_cluster_that_a_light_reaches_is_left_out_and_few_others_are_taken() {
         }
         let [found, reached] = [lists.indices.len(), twin.indices.len()];
         assert!(found >= reached && 10 * found < 16 * reached, "{name}: {found} of {reached}");
+    }
+}
+
+/// Lists of a method on a grid of its own law, kept so, with the bench that made them.
+fn kept_so(lists: ListStore, (name, grid): (&str, Grid), lights: &[Light]) -> (Lists, Bench) {
+    let config = Config { lists: vec![lists], ..by_law(METHODS[0].1) };
+    let (mut bench, _) = with_clusters(&config, (name.parse().unwrap(), grid), lights);
+    (bench.lists(), bench)
+}
+
+/// The lights of each list in the order in which it is walked, list by list.
+fn walked(bench: &mut Bench, links: Links) -> Vec<Vec<u32>> {
+    let state = bench.state().unwrap();
+    let heads = bench.download(BufferName::ListOffsets, state.visible as usize);
+    let words = state.index_total as usize * links.node.words() as usize;
+    let pool = bench.download(BufferName::LightIndices, words);
+    heads.into_iter().map(|head| kept::walk(links.node, &pool, head).collect()).collect()
+}
+
+fn linked(name: &str) -> Links {
+    name.parse::<ListStore>().unwrap().links().unwrap()
+}
+
+#[test]
+fn linked_lists_hold_the_lights_of_offsets_spots_first_and_in_order_where_they_are_sorted() {
+    let lights = mixed(700);
+    let is_point = |light: &u32| lights[*light as usize].spot.is_none();
+    for name in ["raster-13-9-21-e", "raster-count-13-9-21-e"] {
+        let case = (name, sliced(METHODS[0].1));
+        let (offsets, _) = kept_so(ListStore::Offsets, case, &lights);
+        for store in ["linked-64", "linked-32", "linked-64-unsorted", "linked-32-unsorted"] {
+            let links = linked(store);
+            let (lists, mut bench) = kept_so(ListStore::Linked(links), case, &lights);
+            assert!(lists == offsets, "{name}, {store}");
+            let key = |light: &u32| (is_point(light), links.sorted.then_some(*light));
+            let lists = walked(&mut bench, links);
+            assert!(lists.iter().all(|list| list.is_sorted_by_key(key)), "{name}, {store}");
+            assert!(lists.iter().any(|list| list.iter().any(is_point) && !list.iter().all(is_point)));
+        }
+    }
+}
+
+/// What has no room is counted, so that the host can tell how large the pool should be; what has room is in some list, once.
+#[test]
+fn pools_that_are_too_small_tell_how_many_nodes_they_lack() {
+    let mut grid = sliced(METHODS[0].1);
+    grid.dimensions = [2, 2, 21];
+    let ClusterSpace::Perspective { frustum, .. } = grid.space else { panic!("a frustum") };
+    grid.space =
+        ClusterSpace::Perspective { frustum, slices: Slices::new(METHODS[0].1, &frustum, 0.3, 21.0) };
+    let lights = random_lights(2000, 21, 14.0, |_| 60.0);
+    let (offsets, _) = kept_so(ListStore::Offsets, ("raster-2-2-21-e", grid), &lights);
+    let (lists, mut bench) =
+        kept_so(ListStore::Linked(linked("linked-64")), ("raster-2-2-21-e", grid), &lights);
+    let state = bench.state().unwrap();
+    let pool = NODES_PER_CLUSTER * grid.cluster_count() as u32;
+    assert!(state.index_total > pool, "{}", state.index_total);
+    assert_eq!(state.index_total as usize, offsets.indices.len());
+    assert_eq!(lists.indices.len(), pool as usize);
+    for list in 0..lists.offsets.len() - 1 {
+        assert!(lists.of(list).iter().all(|light| offsets.of(list).binary_search(light).is_ok()));
+        assert!(lists.of(list).is_sorted_by(|a, b| a < b));
     }
 }

@@ -29,7 +29,7 @@ pub use resources::capacities;
 use super::Sharing;
 #[cfg(doc)]
 use crate::assign::ListStore;
-use crate::assign::{Bounds, ClusterBounds, Clusters};
+use crate::assign::{Assigner, Bounds, ClusterBounds, Clusters};
 use crate::geometry::{CellShape, SliceLaw, SphereTest, counted_pixels};
 use std::mem::discriminant;
 
@@ -148,8 +148,8 @@ pub struct GridMethod {
     pub test: SphereTest,
     /// Where slices begin where the configuration leaves it to the name.
     pub slices: SliceLaw,
-    /// Whether lists are made by rasterising the meshes around lights, not by testing these.
-    pub rasterised: bool,
+    /// How lists are made where that is by rasterising the meshes around lights, not by testing these.
+    pub rasterising: Option<Assigner>,
 }
 
 impl GridMethod {
@@ -161,7 +161,7 @@ impl GridMethod {
             CellShape::Frustum | CellShape::Model => SphereTest::HALF_SPACES,
         };
         let (clusters, bounds) = (Clusters::Visible, Bounds::Implicit);
-        Self { sharing, space, clusters, bounds, test, slices: SliceLaw::Geometric, rasterised: false }
+        Self { sharing, space, clusters, bounds, test, slices: SliceLaw::Geometric, rasterising: None }
     }
 
     /// Side of the tiles that a view's screen of so many pixels is divided into, where there are such.
@@ -178,9 +178,9 @@ impl GridMethod {
 
     /// Whether the two differ in their sizes alone.
     pub fn is_like(&self, other: &Self) -> bool {
-        let Self { sharing, space, clusters, bounds, test, slices, rasterised } = *self;
+        let Self { sharing, space, clusters, bounds, test, slices, rasterising } = *self;
         (sharing, clusters, bounds) == (other.sharing, other.clusters, other.bounds)
-            && (test, slices, rasterised) == (other.test, other.slices, other.rasterised)
+            && (test, slices, rasterising) == (other.test, other.slices, other.rasterising)
             && discriminant(&space) == discriminant(&other.space)
     }
 }

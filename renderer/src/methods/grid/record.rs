@@ -92,7 +92,11 @@ pub fn light_lists(r: &mut Recorder, frame: &Frame, lights: Lights, visible: Vis
     match frame.assigner {
         Assigner::Brute => assign::transform_lights(r, frame, lights, visible),
         Assigner::Rectangles => assign::light_rectangles(r, frame, lights, visible),
-        Assigner::Raster => raster::record(r, frame, lights, visible),
+        Assigner::Raster => {
+            raster::mesh_frames(r, frame, lights, visible);
+            raster::shells(r, frame, visible);
+        }
+        Assigner::RasterCount => raster::mesh_frames(r, frame, lights, visible),
         Assigner::Hierarchy => {
             cull_lights::cull_lights(r, frame, lights, visible);
             hierarchy::build_hierarchy(r, frame, visible);
@@ -106,5 +110,8 @@ pub fn light_lists(r: &mut Recorder, frame: &Frame, lights: Lights, visible: Vis
     if has_offsets {
         scan::light_offsets(r, frame, visible);
     }
-    assign::assign_lights(r, frame, visible)
+    match frame.lists.links() {
+        Some(_) => raster::linked_lists(r, frame, visible),
+        None => assign::assign_lights(r, frame, visible),
+    }
 }

@@ -1,0 +1,25 @@
+// Lists by meshes without shells: a workgroup takes a light, and its threads the tiles in which the light's mesh is seen; the light goes
+// to the clusters of each between the slices of the mesh at once. (Bevy does so, with the boxes around lights.)
+// WRITE_LISTS 0 counts (stages count_points, count_spots), 1 writes (stage write_lists) where light bits did not fit.
+#version 460
+#include "lib/counters.glsl"
+#include "lib/fill.glsl"
+#include "lib/mesh_in_tiles.glsl"
+
+layout(local_size_x = ASSIGN_WORKGROUP) in;
+
+void main()
+{
+    uint light = gl_WorkGroupID.y;
+    if (light >= state.candidates || !load_mesh(light))
+        return;
+    TileRange seen = tiles_of_mesh();
+    uvec2 size = max(seen.end, seen.first) - seen.first;
+    for (uint place = gl_LocalInvocationIndex; place < size.x * size.y; place += ASSIGN_WORKGROUP) {
+        uvec2 at = seen.first + uvec2(place % size.x, place / size.x);
+#if !WRITE_LISTS
+        count(COUNTER_INTERSECTION_TESTS, 1u);
+#endif
+        fill_range(at, range_in_tile(at), light);
+    }
+}
