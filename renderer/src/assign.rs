@@ -7,9 +7,11 @@
 //! the clusters of the tiles in which it is seen. Meshes, which methods of their own rasterise, give lists of their own: of the clusters
 //! that the mesh around each light meets.
 
+mod conservative;
 mod sorted_tiles;
 mod store;
 
+pub use conservative::Conservative;
 pub use sorted_tiles::{check_sorted_slices, check_sorted_tiles, sorted_keys, sorted_threads};
 pub use store::{Compaction, Links, ListStore, MOST_CAPPED, MOST_FIXED, NODES_PER_CLUSTER, NodeLayout};
 

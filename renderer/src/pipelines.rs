@@ -7,14 +7,17 @@ mod deferred;
 mod graphics;
 mod lists;
 mod probes;
+mod raster;
 mod variant;
 
 pub use debug::{DebugPipelines, Line, SPHERE_VERTICES};
 pub use deferred::DeferredPipelines;
 pub use lists::{AcceleratedPipelines, ClusteredPipelines};
+pub use raster::{RasterPipelines, Shells};
 pub use variant::{Variant, lights_at_once};
 
 use graphics::Output;
+use lists::twice;
 use variant::Defines;
 
 use crate::Result;

@@ -9,10 +9,11 @@
 #pragma once
 
 #include "lib/light_mesh.glsl"
-#include "lib/shell.glsl"
+#include "lib/seen_tiles.glsl"
 
 shared vec3 vertices[MESH_VERTICES];
 shared uint eye_outside;
+shared uint tiles_first[2], tiles_end[2];
 
 Triangle read_triangle(uint triangle)
 {
@@ -31,10 +32,20 @@ bool load_mesh(uint light)
     MeshFrame frame = light_frames[light];
     if (is_spot(frame) != (MESH == MESH_SPOT))
         return false;
-    for (uint vertex = thread; vertex < MESH_VERTICES; vertex += ASSIGN_WORKGROUP)
-        vertices[vertex] = placed_vertex(frame, mesh_vertices[FIRST_VERTEX + vertex]);
-    if (thread == 0u)
+    if (thread == 0u) {
         eye_outside = 0u;
+        tiles_first = uint[](grid.dimensions.x, grid.dimensions.y);
+        tiles_end = uint[](0u, 0u);
+    }
+    barrier();
+    for (uint vertex = thread; vertex < MESH_VERTICES; vertex += ASSIGN_WORKGROUP) {
+        vertices[vertex] = placed_vertex(frame, mesh_vertices[FIRST_VERTEX + vertex]);
+        TileRange seen = tiles_of(vertices[vertex]);
+        for (uint axis = 0u; axis < 2u; ++axis) {
+            atomicMin(tiles_first[axis], seen.first[axis]);
+            atomicMax(tiles_end[axis], seen.end[axis]);
+        }
+    }
     barrier();
     for (uint triangle = thread; triangle < MESH_TRIANGLES; triangle += ASSIGN_WORKGROUP)
         if (!eye_is_behind(read_triangle(triangle)))
@@ -43,29 +54,15 @@ bool load_mesh(uint light)
     return true;
 }
 
-// The first tile and the one behind the last, along x and y, in which the mesh may be seen: all of them where it reaches beside the eye.
-// Tiles that are left out are farther from it than what rounding may take.
-struct TileRange {
-    uvec2 first, end;
-};
-
 TileRange tiles_of_mesh()
 {
-    vec2 low = vec2(3e38), high = vec2(-3e38);
-    bool is_before = true;
-    for (uint vertex = 0u; vertex < MESH_VERTICES; ++vertex) {
-        vec3 place = vertices[vertex];
-        is_before = is_before && place.z < 0.0;
-        vec2 tangents = place.xy / -place.z;
-        vec2 slack = vec2(8.0 * SHELL_ROUNDING * (1.0 + abs(tangents.x) + abs(tangents.y)));
-        low = min(low, tangents - slack);
-        high = max(high, tangents + slack);
-    }
-    const float TILE_ROUNDING = 1e-2;
-    vec2 most = vec2(grid.dimensions.xy);
-    vec2 first = clamp(floor((low - grid.origin.xy) / grid.cell.xy - TILE_ROUNDING), vec2(0.0), most);
-    vec2 end = clamp(ceil((high - grid.origin.xy) / grid.cell.xy + TILE_ROUNDING), vec2(0.0), most);
-    return is_before ? TileRange(uvec2(first), uvec2(end)) : TileRange(uvec2(0u), grid.dimensions.xy);
+    return TileRange(uvec2(tiles_first[0], tiles_first[1]), uvec2(tiles_end[0], tiles_end[1]));
+}
+
+// What is known of the slices of every tile before any triangle is asked.
+uint start_of_shell()
+{
+    return eye_outside == 0u ? RANGE_FROM_THE_EYE : EMPTY_RANGE;
 }
 
 // Whether all of the mesh lies beyond one side of a tile, by more than what rounding may have taken from any of its triangles.
@@ -86,7 +83,7 @@ uint range_in_tile(uvec2 at)
 {
     Tile sides = tile_at(at);
     uint triangles = misses_tile(sides, MESH_VERTICES) ? 0u : MESH_TRIANGLES;
-    uint range = eye_outside == 0u ? RANGE_FROM_THE_EYE : EMPTY_RANGE;
+    uint range = start_of_shell();
     for (uint triangle = 0u; triangle < triangles; ++triangle) {
         vec2 depths = depths_in_tile(read_triangle(triangle), sides);
         if (depths.x <= depths.y)

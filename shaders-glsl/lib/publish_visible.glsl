@@ -72,7 +72,7 @@ void publish_lists(uint lights, uint visible)
 #elif ASSIGN == ASSIGN_RASTER
     publish_meeting(DispatchSize((grid.dimensions.x * grid.dimensions.y + ASSIGN_WORKGROUP - 1u) / ASSIGN_WORKGROUP, lights, 1u), masked);
 #elif ASSIGN == ASSIGN_RASTER_COUNT
-    publish_meeting(DispatchSize(1u, lights, 1u), masked);
+    publish_meeting(DispatchSize(lights, 1u, 1u), masked);
 #endif
 }
 

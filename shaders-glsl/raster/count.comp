@@ -10,11 +10,11 @@ layout(local_size_x = ASSIGN_WORKGROUP) in;
 
 void main()
 {
-    uint light = gl_WorkGroupID.y;
+    uint light = gl_WorkGroupID.x;
     if (light >= state.candidates || !load_mesh(light))
         return;
     TileRange seen = tiles_of_mesh();
-    uvec2 size = max(seen.end, seen.first) - seen.first;
+    uvec2 size = seen.end - seen.first;
     for (uint place = gl_LocalInvocationIndex; place < size.x * size.y; place += ASSIGN_WORKGROUP) {
         uvec2 at = seen.first + uvec2(place % size.x, place / size.x);
 #if !WRITE_LISTS

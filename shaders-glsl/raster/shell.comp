@@ -1,5 +1,5 @@
 // The slices in which each light's mesh lies, tile by tile (Örtegren and Persson section 4.3), without rasterisation: a workgroup takes a
-// light (y) and as many tiles as it has threads (x), and each thread all triangles of the mesh with one tile.
+// light, and each of its threads all triangles of the mesh with one tile after the other.
 #version 460
 #include "lib/mesh_in_tiles.glsl"
 
@@ -7,14 +7,19 @@ layout(local_size_x = ASSIGN_WORKGROUP) in;
 
 void main()
 {
-    uint light = gl_WorkGroupID.y;
+    uint light = gl_WorkGroupID.x;
     if (!load_mesh(light))
         return;
-    uint tile = gl_GlobalInvocationID.x, tiles = grid.dimensions.x * grid.dimensions.y;
-    if (tile >= tiles)
-        return;
-    uvec2 at = uvec2(tile % grid.dimensions.x, tile / grid.dimensions.x);
+    uint tiles = grid.dimensions.x * grid.dimensions.y;
     TileRange seen = tiles_of_mesh();
-    bool is_seen = all(greaterThanEqual(at, seen.first)) && all(lessThan(at, seen.end));
-    shell_ranges[light * tiles + tile] = is_seen ? range_in_tile(at) : EMPTY_RANGE;
+    for (uint tile = gl_LocalInvocationIndex; tile < tiles; tile += ASSIGN_WORKGROUP) {
+        uvec2 at = uvec2(tile % grid.dimensions.x, tile / grid.dimensions.x);
+        if (any(lessThan(at, seen.first)) || any(greaterThanEqual(at, seen.end)))
+            shell_ranges[light * tiles + tile] = EMPTY_RANGE;
+    }
+    uvec2 size = seen.end - seen.first;
+    for (uint place = gl_LocalInvocationIndex; place < size.x * size.y; place += ASSIGN_WORKGROUP) {
+        uvec2 at = seen.first + uvec2(place % size.x, place / size.x);
+        shell_ranges[light * tiles + at.y * grid.dimensions.x + at.x] = range_in_tile(at);
+    }
 }

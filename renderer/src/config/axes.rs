@@ -79,7 +79,7 @@ pub struct Axis {
 }
 
 /// Every axis: of the product the first varies slowest.
-pub static AXES: [Axis; 16] = [
+pub static AXES: [Axis; 17] = [
     Axis {
         name: "scene",
         description: "The scene as the configuration has it, or its file's name without extension; `*` stands for any \
@@ -288,6 +288,20 @@ pub static AXES: [Axis; 16] = [
         split: |config| each(&config.compaction, |way| Config { compaction: vec![way], ..config.clone() }),
         called: |run| vec![names(&run.compaction)],
         label: |run, _| names(&run.compaction),
+    },
+    Axis {
+        name: "conservative",
+        description: "How meshes around lights are rasterised; `*` stands for any text.",
+        column: "conservative",
+        role: Role::Way,
+        values: Values::Names,
+        applies: Method::has_shells,
+        count: |config| config.conservative.len(),
+        split: |config| {
+            each(&config.conservative, |way| Config { conservative: vec![way], ..config.clone() })
+        },
+        called: |run| vec![names(&run.conservative)],
+        label: |run, _| names(&run.conservative),
     },
     Axis {
         name: "octree",

@@ -2,7 +2,7 @@
 
 use super::values::MAX_RESOLUTION;
 use super::{Assign, Choice, Config, Layer};
-use crate::assign::{Bounds, Clusters, Compaction};
+use crate::assign::{Bounds, Clusters, Compaction, Conservative};
 use crate::lights::Attenuation;
 use crate::methods::{KINDS, Kind, Size};
 use crate::shading::{Shading, ShadingPipeline};
@@ -132,6 +132,10 @@ pub(super) fn lists(_: &mut SchemaGenerator) -> Schema {
 
 pub(super) fn compaction(_: &mut SchemaGenerator) -> Schema {
     names_of(Compaction::value_variants())
+}
+
+pub(super) fn conservative(_: &mut SchemaGenerator) -> Schema {
+    names_of(Conservative::value_variants())
 }
 
 pub(super) fn octree(_: &mut SchemaGenerator) -> Schema {

@@ -6,7 +6,7 @@ use super::{
     Assign, Choice, Exclude, ExrFrames, ExrLayout, FrameRange, Runs, SceneEntry, Scopes, Test, exclude,
     scenes, schema,
 };
-use crate::assign::{Bounds, Clusters, Compaction, ListStore, Marking};
+use crate::assign::{Bounds, Clusters, Compaction, Conservative, ListStore, Marking};
 use crate::culling::Culling;
 use crate::geometry::{DisplacedVolume, NormalCones, SliceLaw, VolumeTest};
 use crate::lights::{
@@ -294,6 +294,17 @@ settings! {
         arg(long, value_enum, value_name = "LIST", value_delimiter = ',')
         serde(default, deserialize_with = "de::ways")
         schemars(schema_with = "schema::compaction")
+        write(serialize_with = "ser::one_or_several")
+        check(values::check_ways)
+    }
+    /// How raster methods find the tiles that the triangles of meshes may touch: `auto` (by hardware where the device has conservative
+    /// rasterisation, else by compute), `hardware`, `software` (the rectangle of tiles around each triangle is drawn), or `compute`
+    /// (nothing is drawn: every tile around a mesh asks all of its triangles). Of several, with commas between, each is a run of every
+    /// such method.
+    conservative: Vec<Conservative> = vec![Conservative::Auto], Run {
+        arg(long, value_enum, value_name = "LIST", value_delimiter = ',')
+        serde(default, deserialize_with = "de::ways")
+        schemars(schema_with = "schema::conservative")
         write(serialize_with = "ser::one_or_several")
         check(values::check_ways)
     }

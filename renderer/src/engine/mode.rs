@@ -202,6 +202,7 @@ impl Chosen {
             multiview: run.multiview,
             marking: run.marking,
             assigner: self.assigner,
+            conservative: run.conservative[0],
             test: VolumeTest { cone: self.cones(mode), ..self.test },
             lights_at_once: lights_at_once(self.method.has_lists(), mode.lights.count),
             shading: run.shading[0],

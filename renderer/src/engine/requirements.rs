@@ -1,9 +1,10 @@
 //! What a configuration asks of the device.
 
-use crate::assign::Marking;
+use crate::assign::{Conservative, Marking};
 use crate::config::Config;
 use crate::culling::Culling;
 use crate::geometry::views::ViewSet;
+use crate::methods::Method;
 use crate::vk::Context;
 use crate::{Error, Result};
 
@@ -41,6 +42,16 @@ pub fn check_device(context: &Context, config: &Config, views: ViewSet) -> Resul
     if config.multiview && !limits.shader_output_layer {
         return Err(Error::Device(format!(
             "{} lacks shaderOutputLayer, which drawing all views at once needs: leave --multiview out",
+            context.info.name
+        )));
+    }
+    let draws_shells = config.methods.iter().any(Method::has_shells);
+    if draws_shells
+        && config.conservative.contains(&Conservative::Hardware)
+        && !limits.conservative_rasterization
+    {
+        return Err(Error::Device(format!(
+            "{} lacks VK_EXT_conservative_rasterization, which drawing meshes by hardware needs: use --conservative auto",
             context.info.name
         )));
     }

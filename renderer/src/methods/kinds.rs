@@ -428,6 +428,11 @@ impl Method {
         }
     }
 
+    /// Whether it keeps where meshes lie, which are drawn in several ways.
+    pub fn has_shells(&self) -> bool {
+        self.rasterising() == Some(Assigner::Raster)
+    }
+
     /// Whether ways of assignment and tests of lights bear on the method.
     pub fn takes_ways(&self) -> bool {
         self.assigns() && !self.is_rasterised()

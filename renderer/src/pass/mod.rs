@@ -4,6 +4,7 @@
 mod access;
 mod compute;
 mod declared;
+mod draw;
 mod recorder;
 mod scope_tree;
 mod transfer;
@@ -12,6 +13,7 @@ pub use crate::gpu_interface::Push;
 pub use access::{Access, Use};
 pub use compute::{DepthImage, Dispatch, Size};
 pub use declared::Declared;
+pub use draw::Draw;
 pub use recorder::{Faults, FrameTracker, Recorder, ScopeSpan, ScopeTime, Timed, Timestamps};
 pub use scope_tree::{ScopeId, ScopeName, ScopeTree};
 pub use transfer::{BufferCopy, BufferParts};

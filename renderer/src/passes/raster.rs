@@ -8,7 +8,9 @@
 //! nodes ─sort_lists─> lists
 //! ```
 //!
-//! A mesh is asked triangle by triangle, as a conservative rasteriser would have them, in compute shaders.
+//! The triangles of a mesh are drawn over a screen with a pixel a tile, conservatively, by the device or as rectangles; or compute shaders
+//! ask all of them in every tile around the mesh. Pixels leave slices in `shell_ranges`, the least of each half, so that no order
+//! matters, and no layers of images are needed: the paper has one a light, of which devices have 2048.
 
 use super::assign::{clear_lists, count_bits, indirect, meet};
 use super::handles::{LightLists, Lights, VisibleClusters};
@@ -18,7 +20,8 @@ use crate::assign::{Assigner, NodeLayout};
 use crate::buffers::{BufferName as B, BufferSet, set};
 use crate::gpu_interface::{ASSIGN_WORKGROUP, DISPATCH_LISTS, DISPATCH_MEET};
 use crate::layouts::Pipeline;
-use crate::pass::{Dispatch, Recorder, Size};
+use crate::pass::{Dispatch, Draw, Recorder, Size};
+use crate::pipelines::Shells;
 
 /// Stages of the shells of points, and of those of spots.
 pub const SHELLS: [&str; 2] = ["shell_points", "shell_spots"];
@@ -46,11 +49,31 @@ pub fn mesh_frames(r: &mut Recorder, frame: &Frame, _lights: Lights, visible: Vi
 
 /// The shells of all lights.
 pub fn shells(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
+    for (stage, shells) in SHELLS.into_iter().zip(&frame.pipelines.clustered().raster().shells) {
+        r.scope(stage, |r| shells_of_kind(r, frame, visible, shells));
+    }
+}
+
+fn shells_of_kind(r: &mut Recorder, frame: &Frame, visible: VisibleClusters, shells: &Shells) {
     let [columns, rows, _] = frame.clusterings[visible.clustering].dimensions;
-    let size = Size::Workgroups((columns * rows).div_ceil(ASSIGN_WORKGROUP), frame.lights.count);
-    for (stage, pipeline) in SHELLS.into_iter().zip(&frame.pipelines.clustered().raster().shells) {
-        let declared = (set(&[B::LightFrames]), set(&[B::ShellRanges]));
-        r.scope(stage, |r| run(r, frame, visible, (pipeline, size), declared));
+    let lights = frame.lights.count;
+    let declared = (set(&[B::LightFrames]), set(&[B::ShellRanges]));
+    match shells {
+        Shells::Computed(pipeline) => {
+            run(r, frame, visible, (pipeline, Size::Workgroups(lights, 1)), declared);
+        }
+        Shells::Drawn { start, draw, vertices } => {
+            run(r, frame, visible, (start, Size::Workgroups(lights, 1)), declared);
+            r.draw(&Draw {
+                pipeline: draw,
+                buffers: frame.buffers(visible.clustering),
+                size: [columns, rows],
+                vertices: *vertices,
+                instances: lights,
+                reads: declared.0,
+                writes: declared.1,
+            });
+        }
     }
 }
 

@@ -1,9 +1,8 @@
 //! The pipelines that build light lists: an entry each says what it is, and how it is made.
 
-use super::{Defines, PipelineStore, ScanPipelines, Variant, Visit, VisitPipelines};
+use super::{Defines, PipelineStore, RasterPipelines, ScanPipelines, Variant, Visit, VisitPipelines};
 use crate::Result;
 use crate::assign::{Assigner, Compaction, ListStore, sorted_keys, sorted_threads};
-use crate::geometry::{LightMesh, MeshKind};
 use crate::layouts::Pipeline;
 use std::sync::Arc;
 
@@ -75,47 +74,18 @@ impl Maker<'_> {
         wanted.then(|| self.tests("assign/light_rectangles.comp")).transpose()
     }
 
-    /// Defines of shaders that take meshes of one kind: of points, then of spots where there are such.
-    fn mesh_defines(&self) -> Vec<Defines> {
-        let (mut first_vertex, mut first_triangle) = (0, 0);
-        let kinds = ["MESH_SPHERE", "MESH_SPOT"].into_iter().zip(MeshKind::RASTERISED);
-        let of = |(name, kind)| {
-            let LightMesh { vertices, triangles } = LightMesh::new(kind);
-            let defines = self.defines.with("MESH", name).with("MESH_VERTICES", vertices.len());
-            let defines = defines.with("MESH_TRIANGLES", triangles.len());
-            let defines = defines.with("FIRST_VERTEX", first_vertex).with("FIRST_TRIANGLE", first_triangle);
-            first_vertex += vertices.len();
-            first_triangle += triangles.len();
-            defines
-        };
-        kinds.take(if self.variant.spots { 2 } else { 1 }).map(of).collect()
-    }
-
     /// Finding where meshes around lights lie, where these are rasterised.
     fn raster(&mut self) -> Result<Option<RasterPipelines>> {
-        if !self.variant.assigner.rasterises() {
-            return Ok(None);
-        }
-        let frames = self.lists("raster/mesh_frames.comp")?;
-        let shells = match self.variant.assigner {
-            Assigner::Raster => self.mesh_defines(),
-            _ => vec![],
-        };
-        let shells = shells.iter().map(|defines| self.store.compute("raster/shell.comp", defines));
-        let shells = shells.collect::<Result<_>>()?;
-        let sorts = self.variant.lists.links().is_some_and(|links| links.sorted);
-        let sort_nodes = sorts.then(|| self.lists("raster/sort_nodes.comp")).transpose()?;
-        Ok(Some(RasterPipelines { frames, shells, sort_nodes }))
+        self.store.raster(self.variant)
     }
 
     /// What finds the pairs that meet: counts or links them, and writes lists. Of meshes, points and spots apart.
     fn meet(&mut self) -> Result<Vec<[Arc<Pipeline>; 2]>> {
         let path = meet(self.variant.assigner);
-        let defines = match self.variant.assigner.rasterises() {
-            true => self.mesh_defines(),
-            false => vec![self.tests.clone()],
-        };
-        defines.iter().map(|defines| twice(self.store, path, defines, "WRITE_LISTS")).collect()
+        match self.variant.assigner.rasterises() {
+            true => self.store.fills(self.variant, path),
+            false => Ok(vec![twice(self.store, path, &self.tests, "WRITE_LISTS")?]),
+        }
     }
 
     fn scan(&mut self, items: &str) -> Result<ScanPipelines> {
@@ -127,16 +97,6 @@ impl Maker<'_> {
     }
 }
 
-/// Finds the slices of tiles in which meshes around lights lie.
-pub struct RasterPipelines {
-    /// Places the meshes in clustering space.
-    pub frames: Arc<Pipeline>,
-    /// The slices of points' meshes, then of spots' where there are such.
-    pub shells: Vec<Arc<Pipeline>>,
-    /// Sorts lists that are linked, where that is wanted.
-    pub sort_nodes: Option<Arc<Pipeline>>,
-}
-
 /// Sorts the samples of tiles by their slices, and lists the clusters that hold some.
 pub struct TilePipelines {
     /// The slices of each tile.
@@ -145,7 +105,8 @@ pub struct TilePipelines {
     pub tile_offsets: ScanPipelines,
 }
 
-fn twice(
+/// A shader twice: with `define` 0 and 1.
+pub(super) fn twice(
     store: &mut PipelineStore,
     path: &str,
     defines: &Defines,

@@ -1,7 +1,7 @@
 //! A variant as data: what shaders are specialised for, and the defines that follow.
 
 use super::Output;
-use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction, ListStore, Marking};
+use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction, Conservative, ListStore, Marking};
 use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
 use crate::geometry::{
@@ -48,6 +48,8 @@ pub struct Variant {
     pub marking: Marking,
     /// How the lists are built.
     pub assigner: Assigner,
+    /// How meshes around lights are rasterised, where these are kept.
+    pub conservative: Conservative,
     /// What decides who is on them; no cones are asked where there are none.
     pub test: VolumeTest,
     /// Lights that shading evaluates in one turn of its loop.

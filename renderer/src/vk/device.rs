@@ -210,6 +210,7 @@ impl fmt::Display for ListedDevice {
         )?;
         row("anisotropy", format!("{}", limits.max_sampler_anisotropy))?;
         row("subgroup", limits.subgroup_size.to_string())?;
+        row("conservative rasterisation", yes(limits.conservative_rasterization).to_string())?;
         row("multiview", format!("{} views", if limits.multiview { limits.max_multiview_views } else { 1 }))?;
         row(
             "timestamps",

@@ -1,13 +1,16 @@
 //! The device features that the renderer needs, and those it takes where they are.
 
-use ash::{khr, vk};
-use std::ffi::c_char;
+use ash::{ext, khr, vk};
+use std::ffi::{CStr, c_char};
 
 /// What a device of the portability subset has of what others must have.
 type PortabilitySubset = vk::PhysicalDevicePortabilitySubsetFeaturesKHR<'static>;
 
-/// What such a device is opened with.
-const PORTABILITY: [*const c_char; 1] = [khr::portability_subset::NAME.as_ptr()];
+/// Whether a device offers an extension.
+pub(super) fn offers(instance: &ash::Instance, physical: vk::PhysicalDevice, name: &CStr) -> bool {
+    let extensions = unsafe { instance.enumerate_device_extension_properties(physical) }.unwrap_or_default();
+    extensions.iter().any(|extension| extension.extension_name_as_c_str() == Ok(name))
+}
 
 /// What `physical` has of the features that only devices of the portability subset (VK_KHR_portability_subset) may lack;
 /// `None` for a device that lacks none.
@@ -15,9 +18,9 @@ pub(super) fn portability_subset(
     instance: &ash::Instance,
     physical: vk::PhysicalDevice,
 ) -> Option<PortabilitySubset> {
-    let extensions = unsafe { instance.enumerate_device_extension_properties(physical) }.unwrap_or_default();
-    let name = Ok(khr::portability_subset::NAME);
-    extensions.iter().find(|extension| extension.extension_name_as_c_str() == name)?;
+    if !offers(instance, physical, khr::portability_subset::NAME) {
+        return None;
+    }
     let mut subset = PortabilitySubset::default();
     let mut query = vk::PhysicalDeviceFeatures2::default().push_next(&mut subset);
     unsafe { instance.get_physical_device_features2(physical, &mut query) };
@@ -32,12 +35,19 @@ pub(super) struct Features {
     v12: vk::PhysicalDeviceVulkan12Features<'static>,
     v13: vk::PhysicalDeviceVulkan13Features<'static>,
     portability: Option<PortabilitySubset>,
+    conservative: bool,
+    /// The extensions that the device is opened with.
+    names: Vec<*const c_char>,
 }
 
 impl Features {
     /// What `physical`, a Vulkan 1.3 device, offers.
     pub fn query(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Self {
-        let mut offered = Self { portability: portability_subset(instance, physical), ..Self::default() };
+        let mut offered = Self {
+            portability: portability_subset(instance, physical),
+            conservative: offers(instance, physical, ext::conservative_rasterization::NAME),
+            ..Self::default()
+        };
         let mut query = vk::PhysicalDeviceFeatures2::default()
             .push_next(&mut offered.v11)
             .push_next(&mut offered.v12)
@@ -66,7 +76,8 @@ impl Features {
 
     /// What to enable on a device that misses nothing: all required features, and of the optional ones those offered.
     pub fn enabled(&self) -> Self {
-        let mut enabled = Self { portability: self.portability, ..Self::default() };
+        let mut enabled =
+            Self { portability: self.portability, conservative: self.conservative, ..Self::default() };
         enabled.core = vk::PhysicalDeviceFeatures::default()
             .fragment_stores_and_atomics(true)
             .sample_rate_shading(self.core.sample_rate_shading == vk::TRUE)
@@ -94,16 +105,20 @@ impl Features {
         enabled
     }
 
-    /// `info` with these features, which must outlive it, and the extension that a device of the portability subset must
-    /// be opened with.
+    /// `info` with these features, which must outlive it, and their extensions: also that which a device of the portability subset
+    /// must be opened with.
     pub fn attach<'a>(&'a mut self, info: vk::DeviceCreateInfo<'a>) -> vk::DeviceCreateInfo<'a> {
+        let subset = self.portability.map(|_| khr::portability_subset::NAME.as_ptr());
+        let conservative = self.conservative.then_some(ext::conservative_rasterization::NAME.as_ptr());
+        self.names = subset.into_iter().chain(conservative).collect();
         let info = info
+            .enabled_extension_names(&self.names)
             .enabled_features(&self.core)
             .push_next(&mut self.v11)
             .push_next(&mut self.v12)
             .push_next(&mut self.v13);
         match &mut self.portability {
-            Some(subset) => info.enabled_extension_names(&PORTABILITY).push_next(subset),
+            Some(subset) => info.push_next(subset),
             None => info,
         }
     }
@@ -128,9 +143,9 @@ mod tests {
         let extensions =
             |mut features: Features| features.attach(vk::DeviceCreateInfo::default()).enabled_extension_count;
         let subset = PortabilitySubset::default().multisample_array_image(true);
-        let offered = Features { portability: Some(subset), ..Features::default() };
+        let offered = Features { portability: Some(subset), conservative: true, ..Features::default() };
         let enabled = offered.enabled();
         assert!(enabled.portability.is_some_and(|subset| subset.multisample_array_image == vk::TRUE));
-        assert_eq!((extensions(enabled), extensions(Features::default())), (1, 0));
+        assert_eq!((extensions(enabled), extensions(Features::default())), (2, 0));
     }
 }

@@ -1,6 +1,6 @@
 //! What a device is called and what it can hold.
 
-use super::features::portability_subset;
+use super::features::{offers, portability_subset};
 use crate::machine::{Device, Heap, uuid_text};
 use ash::{ext, vk};
 use serde::Serialize;
@@ -87,6 +87,8 @@ pub struct Limits {
     pub multiview: bool,
     /// Views of one multiview pass.
     pub max_multiview_views: u32,
+    /// Whether all pixels that a triangle may touch can be drawn (VK_EXT_conservative_rasterization).
+    pub conservative_rasterization: bool,
     /// Whether queries can be reset from the host.
     pub host_query_reset: bool,
     /// Whether vertex shaders have `gl_DrawID`, `gl_BaseVertex` and `gl_BaseInstance`.
@@ -224,6 +226,7 @@ pub(super) fn read_limits(instance: &ash::Instance, physical: vk::PhysicalDevice
             .is_none_or(|subset| subset.multisample_array_image == vk::TRUE),
         multiview: f11.multiview == vk::TRUE,
         max_multiview_views: v11.max_multiview_view_count,
+        conservative_rasterization: offers(instance, physical, ext::conservative_rasterization::NAME),
         host_query_reset: f12.host_query_reset == vk::TRUE,
         shader_draw_parameters: f11.shader_draw_parameters == vk::TRUE,
         shader_int64: core.shader_int64 == vk::TRUE,

@@ -80,6 +80,8 @@ pub struct GraphicsDesc<'a> {
     pub blend: Blend,
     /// Samples of the attachments.
     pub samples: vk::SampleCountFlags,
+    /// Draws into every pixel that a triangle may touch; needs the limit `conservative_rasterization`.
+    pub conservative: bool,
     /// Runs the fragment shader once per sample; needs the limit `sample_rate_shading`.
     pub sample_shading: bool,
 }
@@ -101,6 +103,7 @@ impl Default for GraphicsDesc<'_> {
             color_formats: &[],
             blend: Blend::Replace,
             samples: vk::SampleCountFlags::TYPE_1,
+            conservative: false,
             sample_shading: false,
         }
     }
@@ -130,11 +133,16 @@ pub fn graphics_pipeline(
     let assembly =
         vk::PipelineInputAssemblyStateCreateInfo::default().topology(vk::PrimitiveTopology::TRIANGLE_LIST);
     let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
-    let raster = vk::PipelineRasterizationStateCreateInfo::default()
+    let mut conservative = vk::PipelineRasterizationConservativeStateCreateInfoEXT::default()
+        .conservative_rasterization_mode(vk::ConservativeRasterizationModeEXT::OVERESTIMATE);
+    let mut raster = vk::PipelineRasterizationStateCreateInfo::default()
         .polygon_mode(vk::PolygonMode::FILL)
         .cull_mode(desc.cull_mode)
         .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
         .line_width(1.0);
+    if desc.conservative {
+        raster = raster.push_next(&mut conservative);
+    }
     let multisample = vk::PipelineMultisampleStateCreateInfo::default()
         .rasterization_samples(desc.samples)
         .sample_shading_enable(desc.sample_shading)

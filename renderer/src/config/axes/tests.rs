@@ -1,7 +1,7 @@
 //! The product of axes, names on them, and rules that exclude.
 
 use super::*;
-use crate::assign::{Compaction, ListStore};
+use crate::assign::{Compaction, Conservative, ListStore};
 use crate::config::{Assign, Exclude};
 use crate::config::{Choice, Lighting};
 use crate::methods::OctreeWay;
@@ -15,7 +15,9 @@ fn everything() -> Config {
         scenes: ["street=bistro", "temple=suntem"].map(|text| text.parse().unwrap()).to_vec(),
         resolutions: vec![[8, 4], [16, 16]],
         lights: vec![Lighting::with_count(1), Lighting::with_count(20)],
-        methods: ["indi-persp-64", "encl-ortho-4", "all-lights", "hashed-1-3"].map(read).to_vec(),
+        methods: ["indi-persp-64", "encl-ortho-4", "all-lights", "hashed-1-3", "raster-2-2-2-e"]
+            .map(read)
+            .to_vec(),
         assign: vec![Assign::Brute, Assign::Scatter],
         test: ["auto", "hs", "exact"].map(|name| name.parse().unwrap()).to_vec(),
         clusters: vec![Clusters::Visible.into(), Clusters::All.into()],
@@ -26,6 +28,7 @@ fn everything() -> Config {
         pipeline: vec![ShadingPipeline::Forward, ShadingPipeline::Deferred],
         lists: vec![ListStore::Offsets, ListStore::Fixed(8)],
         compaction: vec![Compaction::Ranks, Compaction::Atomic],
+        conservative: vec![Conservative::Software, Conservative::Compute],
         octree: vec![OctreeWay::Rebuild, OctreeWay::Seed(7)],
         ..Config::default()
     }
@@ -38,8 +41,12 @@ fn runs() -> Vec<Config> {
 #[test]
 fn the_product_has_every_combination_that_differs_once() {
     // Of three tests, Persp has its own under two names and Ortho has not, and so it is of slices, which Ortho has none of;
-    // the third method knows no ways of assignment, and the fourth but two of making octrees. All are shaded in two ways by two pipelines.
-    assert_eq!(runs().len(), 2 * 2 * 2 * 2 * 2 * ((2 * 2 * 2 * 2 * 2 + 2 * 3 * 2 * 2) * 2 * 2 * 2 + 1 + 2));
+    // the third method knows no ways of assignment, the fourth but two of making octrees, and the fifth neither ways of assignment nor
+    // tests but two of rasterising. All are shaded in two ways by two pipelines.
+    assert_eq!(
+        runs().len(),
+        2 * 2 * 2 * 2 * 2 * ((2 * 2 * 2 * 2 * 2 + 2 * 3 * 2 * 2) * 2 * 2 * 2 + 1 + 2 + 2 * 2 * 3 * 2 * 2)
+    );
     for run in runs() {
         assert_eq!((run.by_scene(), run.cases()), (vec![run.clone()], vec![run]));
     }

@@ -4,10 +4,12 @@ use super::bounds::with_clusters;
 use super::boxes::{by_law, sliced};
 use super::cones::mixed;
 use super::*;
-use crate::assign::{Links, ListStore, NODES_PER_CLUSTER};
+use crate::assign::{Conservative, Links, ListStore, NODES_PER_CLUSTER};
 use crate::engine::kept;
+use crate::geometry::views::Pose;
 use crate::geometry::{ClusterSpace, LightMesh, MeshKind, SliceLaw, Slices, SphereLevel, VolumeTest};
 use crate::gpu_interface::{GridData, MeshFrame};
+use crate::lights::Spot;
 
 /// What a device has of a grid, as far as shells ask it.
 fn data_of(grid: &Grid) -> (GridData, Vec<f32>) {
@@ -149,5 +151,50 @@ fn pools_that_are_too_small_tell_how_many_nodes_they_lack() {
     for list in 0..lists.offsets.len() - 1 {
         assert!(lists.of(list).iter().all(|light| offsets.of(list).binary_search(light).is_ok()));
         assert!(lists.of(list).is_sorted_by(|a, b| a < b));
+    }
+}
+
+/// Around the eye of a camera, cut by its near and far plane, behind the eye, as narrow and as wide as spots get; and many others.
+fn lights_that_are_cut(pose: &Pose) -> Vec<Light> {
+    let point = |local: [f64; 3], r1| {
+        let position = pose.transform_point(DVec3::from_array(local)).as_vec3().to_array();
+        Light { r1, ..Light::new(position, [1.0; 3], 1.0, 0.1, 0.1) }
+    };
+    let spot = |local, direction: [f64; 3], r1, degrees: f32| {
+        let direction = (pose.rotation * DVec3::from_array(direction)).as_vec3().to_array();
+        point(local, r1).shining(Some(Spot::new(direction, 0.0, degrees.to_radians())))
+    };
+    let mut lights = mixed(200);
+    for z in [-200.0, -60.0, -3.0, -0.3, 0.0, 0.3, 5.0] {
+        lights.extend([0.2, 4.0, 300.0].map(|r1| point([0.1, -0.2, z], r1)));
+        for degrees in [0.5, 45.0, 85.0] {
+            let directions = [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]];
+            lights.extend(directions.map(|direction| spot([0.0, 0.1, z], direction, 12.0, degrees)));
+        }
+    }
+    lights
+}
+
+/// The slices that a way of rasterising leaves of each light and tile, and whether the device has it as hardware.
+fn shell_words(way: Conservative, law: SliceLaw, lights: &[Light]) -> (Vec<u32>, bool) {
+    let config = Config { conservative: vec![way], ..by_law(law) };
+    let (mut bench, _) = with_clusters(&config, ("raster-13-9-21-e".parse().unwrap(), sliced(law)), lights);
+    bench.lists();
+    let words = bench.download(BufferName::ShellRanges, 13 * 9 * lights.len());
+    (words, bench.session.context.limits.conservative_rasterization)
+}
+
+#[test]
+fn drawn_shells_are_those_of_the_kernel() {
+    for (_, law) in &METHODS[..2] {
+        let lights = lights_that_are_cut(&sliced(*law).pose);
+        let (computed, has_hardware) = shell_words(Conservative::Compute, *law, &lights);
+        let from_the_eye = computed.iter().filter(|word| *word & 0xFFFF == 0).count();
+        assert!(from_the_eye > 1000 && computed.contains(&u32::MAX));
+        // Hardware is asked where the device has it.
+        let hardware = has_hardware.then_some(Conservative::Hardware);
+        for way in [Conservative::Software].into_iter().chain(hardware) {
+            assert!(shell_words(way, *law, &lights).0 == computed, "{way}");
+        }
     }
 }

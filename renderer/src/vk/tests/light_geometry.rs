@@ -5,7 +5,7 @@ use crate::cpu;
 use crate::geometry::{
     Hexahedron, LightMesh, LightVolume, MeshFrame, MeshKind, OrientedBox, Plane, SphereLevel, SphericalSector,
 };
-use crate::gpu_interface::{self, ASSIGN_WORKGROUP, GridData};
+use crate::gpu_interface::{self, GridData};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3, Vec3};
 use rand_core::{Rng, SeedableRng};
@@ -285,6 +285,6 @@ fn device_shell(
         buffer(context, &triangles),
         buffer(context, frames),
     ];
-    let groups = [tiles.div_ceil(ASSIGN_WORKGROUP), frames.len() as u32, 1];
+    let groups = [frames.len() as u32, 1, 1];
     run(context, &words, &inputs.each_ref(), (groups, (tiles as usize) * frames.len()))
 }
