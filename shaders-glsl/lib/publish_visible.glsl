@@ -69,9 +69,7 @@ void publish_lists(uint lights, uint visible)
     publish_meeting(DispatchSize(lists.x, TREE_SPLIT, 1u), masked);
 #elif ASSIGN == ASSIGN_RECTANGLES
     publish_meeting(DispatchSize((lights + ASSIGN_WORKGROUP - 1u) / ASSIGN_WORKGROUP, rectangle_split(visible), 1u), masked);
-#elif ASSIGN == ASSIGN_RASTER
-    publish_meeting(DispatchSize((grid.dimensions.x * grid.dimensions.y + ASSIGN_WORKGROUP - 1u) / ASSIGN_WORKGROUP, lights, 1u), masked);
-#elif ASSIGN == ASSIGN_RASTER_COUNT
+#elif ASSIGN == ASSIGN_RASTER || ASSIGN == ASSIGN_RASTER_COUNT
     publish_meeting(DispatchSize(lights, 1u, 1u), masked);
 #endif
 }

@@ -1,5 +1,5 @@
-// Fill (Örtegren and Persson section 4.4): a light to the clusters of a tile between the slices of its shell; a workgroup takes a light (y)
-// and as many tiles as it has threads (x). MESH says of which lights: points (MESH_SPHERE) or spots.
+// Fill (Örtegren and Persson section 4.4): a light to the clusters of a tile between the slices of its shell; a workgroup takes a light, and
+// its threads one tile after the other. MESH says of which lights: points (MESH_SPHERE) or spots.
 // WRITE_LISTS 0 counts, or links where lists are so (stages fill_points, fill_spots), 1 writes (stage write_lists) where light bits did
 // not fit.
 #version 460
@@ -11,12 +11,14 @@ layout(local_size_x = ASSIGN_WORKGROUP) in;
 
 void main()
 {
-    uint tile = gl_GlobalInvocationID.x, light = gl_WorkGroupID.y, tiles = grid.dimensions.x * grid.dimensions.y;
-    if (tile >= tiles || light >= state.candidates || is_spot(light_frames[light]) != (MESH == MESH_SPOT))
+    uint light = gl_WorkGroupID.x, tiles = grid.dimensions.x * grid.dimensions.y;
+    if (light >= state.candidates || is_spot(light_frames[light]) != (MESH == MESH_SPOT))
         return;
+    for (uint tile = gl_LocalInvocationIndex; tile < tiles; tile += ASSIGN_WORKGROUP) {
 #if !WRITE_LISTS
-    count(COUNTER_INTERSECTION_TESTS, 1u);
+        count(COUNTER_INTERSECTION_TESTS, 1u);
 #endif
-    uvec2 at = uvec2(tile % grid.dimensions.x, tile / grid.dimensions.x);
-    fill_range(at, shell_ranges[light * tiles + tile], light);
+        uvec2 at = uvec2(tile % grid.dimensions.x, tile / grid.dimensions.x);
+        fill_range(at, shell_ranges[light * tiles + tile], light);
+    }
 }
