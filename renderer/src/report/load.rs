@@ -4,7 +4,9 @@ mod manifest;
 mod tables;
 
 use super::results::{LightingName, Picture, ResultSet, Run, is_tuned};
-use crate::output::{Manifest, Older, age, check_run, find_runs, newest_of_each, saved_memory, saved_times};
+use crate::output::{
+    Manifest, Older, age, check_run, find_runs, newest_of_each, saved_memory, saved_samples, saved_times,
+};
 use crate::{Error, Result};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -121,7 +123,8 @@ fn read_run(Found { name, directory, manifest: file }: &Found) -> Result<Run> {
     if is_tuned(method) {
         (distributions, most_fragments) = tables::read_histograms(directory, &frames.numbers)?;
     }
-    let times = saved_times(directory, &frames.numbers)?;
+    let numbers = frames.numbers.clone();
+    let times = saved_times(directory, &numbers)?;
     let pictures = pictures(&directory.join("frames"));
     let groups = if pictures.is_empty() {
         vec![]
@@ -146,6 +149,7 @@ fn read_run(Found { name, directory, manifest: file }: &Found) -> Result<Run> {
         grid,
         frames,
         times,
+        stages: if method.is_rasterised() { stages(directory, &numbers)? } else { BTreeMap::new() },
         distributions,
         most_fragments,
         memory: saved_memory(directory)?,
@@ -154,6 +158,13 @@ fn read_run(Found { name, directory, manifest: file }: &Found) -> Result<Run> {
         lists_all: manifest::lists_all(file, method),
         groups,
     })
+}
+
+/// Mean times of the stages of clustering by name, milliseconds, over all clusterings and views.
+fn stages(directory: &Path, frames: &[u32]) -> Result<BTreeMap<String, f64>> {
+    let name = |kind: &str| kind.strip_prefix("frame/cluster/").map(str::to_owned).into_iter().collect();
+    let samples = saved_samples(directory, frames, name)?;
+    Ok(samples.into_iter().map(|(name, samples)| (name, samples.measure().value)).collect())
 }
 
 /// Previews in a run's `frames`, by frame; none where nothing was rendered to files.

@@ -30,6 +30,7 @@ mod figure;
 mod format;
 mod gelderen;
 mod load;
+mod ortegren;
 mod ortiz;
 mod page;
 mod paper;

@@ -5,7 +5,7 @@ use super::figure::Figure;
 use super::results::ResultSet;
 use super::tables::Table;
 use super::way::Way;
-use super::{enhuber, gelderen, ortiz, tegelaers};
+use super::{enhuber, gelderen, ortegren, ortiz, tegelaers};
 use crate::Result;
 use crate::methods::Method;
 
@@ -38,7 +38,8 @@ pub struct Section {
 }
 
 /// Every paper, in the order of the page.
-static PAPERS: [Paper; 4] = [gelderen::PAPER, enhuber::PAPER, ortiz::PAPER, tegelaers::PAPER];
+static PAPERS: [Paper; 5] =
+    [gelderen::PAPER, enhuber::PAPER, ortiz::PAPER, ortegren::PAPER, tegelaers::PAPER];
 
 /// The papers whose methods were run; of no runs the first.
 pub fn papers(set: &ResultSet) -> Vec<&'static Paper> {

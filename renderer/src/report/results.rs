@@ -117,6 +117,9 @@ pub struct Run {
     pub frames: Frames,
     /// The times among them, of every temporal run.
     pub times: ColumnTimes,
+    /// GPU time of each stage of clustering by its name, milliseconds: mean over frames of the least of all temporal runs; loaded of methods
+    /// alone that rasterise meshes.
+    pub stages: BTreeMap<String, f64>,
     /// Clusters by light count and by fragment count; loaded of tuned methods alone.
     pub distributions: BTreeMap<Distribution, Vec<Vec<u64>>>,
     /// The most fragments of any cluster of any frame; known of tuned methods alone.

@@ -61,6 +61,7 @@ pub fn run(method: &str, views: u32, lights: u32, value: impl Fn(&str, u32) -> O
             metrics: names.iter().map(|&name| (name.to_owned(), cells(name))).collect(),
         },
         times: BTreeMap::new(),
+        stages: BTreeMap::new(),
         distributions: BTreeMap::from([
             (Distribution::Lights, vec![vec![3, 0, 5]; FRAMES.len()]),
             (Distribution::Fragments, vec![vec![0, 8]; FRAMES.len()]),

@@ -1,6 +1,7 @@
 //! The configurations and the schema that come along.
 
 use super::*;
+use crate::assign::ListStore;
 
 #[test]
 fn bundled_configurations_say_what_they_should() {
@@ -122,6 +123,28 @@ fn the_bundled_sweep_of_moving_lights_has_every_slack_beside_octrees_that_are_re
         assert!(found.eq(ways), "{}", part.config.scene);
     }
     assert_eq!(parts.len(), 2, "scenes");
+}
+
+#[test]
+fn bundled_sweeps_of_ortegren_have_his_grids_and_numbers_of_lights() {
+    let part = |file: &str| {
+        let config = Config::resolve(Some(&repository(&format!("configs/{file}.json"))), Layer::default());
+        crate::sweep::parts(&config.unwrap()).unwrap().remove(0)
+    };
+    for (file, resolution) in [("ortegren", [1536, 768]), ("ortegren-ci", [384, 192])] {
+        let part = part(file);
+        assert_eq!(part.config.resolution, resolution);
+        let of = |lists: &str| {
+            let lists: ListStore = lists.parse().unwrap();
+            part.runs.iter().filter(|run| run.config.lists == [lists]).count()
+        };
+        // Twelve grids under four numbers of lights; the deep one of few tiles with nodes of 32 bits too.
+        assert_eq!([of("linked-64-unsorted"), of("linked-32-unsorted")], [12 * 4, 2 * 4], "{file}");
+    }
+    let tests = part("ortegren-tests");
+    let count = |method: &str| tests.runs.iter().filter(|run| run.name.starts_with(method)).count();
+    // Two laws by three ways under two numbers of lights.
+    assert_eq!([count("ortiz-24-12-32"), count("ortiz-24-12-128"), count("tiled-16")], [12, 12, 2]);
 }
 
 #[test]
