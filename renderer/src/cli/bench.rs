@@ -6,7 +6,7 @@ use super::{Console, Interrupt};
 use crate::assign::Assigner;
 use crate::config::{Assign, Config, Layer, Test};
 use crate::inputs::Inputs;
-use crate::lights::Lighting;
+use crate::lights::{Lighting, SpotShare};
 use crate::output::{prepare_file, write_whole};
 use crate::replay::Watch;
 use crate::replay::bench::{AssignBench, BenchRow, LIMIT, bench_assign};
@@ -34,6 +34,10 @@ pub struct Args {
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "1000,10000,100000")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     lights: Vec<u32>,
+
+    /// Which part of the lights are spots, as in `replay`; tests ask their cones where `--test` says so.
+    #[arg(long, value_name = "FRACTION", allow_hyphen_values = true, default_value_t)]
+    spots: SpotShare,
 
     /// Methods, as in `replay`; the flag is repeated for several.
     #[arg(long = "method", value_name = "METHOD", default_value = "indi-persp-64")]
@@ -132,10 +136,10 @@ struct Rows(Vec<BenchRow>);
 impl fmt::Display for Rows {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.iter().try_for_each(|row| {
-            let BenchRow { lights, method, assign, test, frame, gpu_ms, over_limit, light_indices, .. } = row;
+            let BenchRow { lights, spots, method, assign, test, frame, gpu_ms, over_limit, light_indices, .. } = row;
             writeln!(
                 f,
-                "{lights} lights, {method}, frame {frame}, {assign}, {test}: {gpu_ms:.3} ms, {over_limit:.1} times the \
+                "{lights} lights, {spots} of them spots, {method}, frame {frame}, {assign}, {test}: {gpu_ms:.3} ms, {over_limit:.1} times the \
                  limit, {light_indices} light indices"
             )
         })
@@ -166,6 +170,7 @@ impl Args {
             methods: Some(methods),
             resolution: Some(crate::config::parse_resolution(&self.resolution).map_err(input)?),
             test: Some(self.test.clone()),
+            spots: Some(self.spots),
             device: self.device.clone(),
             shaders: self.shaders.clone(),
             ..Layer::default()

@@ -79,7 +79,7 @@ pub struct Axis {
 }
 
 /// Every axis: of the product the first varies slowest.
-pub static AXES: [Axis; 17] = [
+pub static AXES: [Axis; 18] = [
     Axis {
         name: "scene",
         description: "The scene as the configuration has it, or its file's name without extension; `*` stands for any \
@@ -302,6 +302,20 @@ pub static AXES: [Axis; 17] = [
         },
         called: |run| vec![names(&run.conservative)],
         label: |run, _| names(&run.conservative),
+    },
+    Axis {
+        name: "mesh_detail",
+        description: "How fine the meshes around point lights are, in vertices; `*` stands for any text.",
+        column: "mesh_detail",
+        role: Role::Way,
+        values: Values::Names,
+        applies: Method::has_meshes,
+        count: |config| config.mesh_detail.len(),
+        split: |config| {
+            each(&config.mesh_detail, |level| Config { mesh_detail: vec![level], ..config.clone() })
+        },
+        called: |run| vec![names(&run.mesh_detail)],
+        label: |run, _| format!("mesh-{}", run.mesh_detail[0]),
     },
     Axis {
         name: "octree",

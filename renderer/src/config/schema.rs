@@ -3,6 +3,7 @@
 use super::values::MAX_RESOLUTION;
 use super::{Assign, Choice, Config, Layer};
 use crate::assign::{Bounds, Clusters, Compaction, Conservative};
+use crate::geometry::SphereLevel;
 use crate::lights::Attenuation;
 use crate::methods::{KINDS, Kind, Size};
 use crate::shading::{Shading, ShadingPipeline};
@@ -138,6 +139,10 @@ pub(super) fn conservative(_: &mut SchemaGenerator) -> Schema {
     names_of(Conservative::value_variants())
 }
 
+pub(super) fn mesh_detail(_: &mut SchemaGenerator) -> Schema {
+    names_of(&SphereLevel::ALL)
+}
+
 pub(super) fn octree(_: &mut SchemaGenerator) -> Schema {
     one_or_several(&json_schema!({
         "type": "string",
@@ -171,8 +176,8 @@ fn names_of<T: ToString>(values: &[T]) -> Schema {
 pub(super) fn test(_: &mut SchemaGenerator) -> Schema {
     one_or_several(&json_schema!({
         "type": "string",
-        "pattern": r"^(auto|box|exact|mm|hs|(hs\+)?sat-[enpv]{1,4})$",
-        "examples": ["auto", "hs", "hs+sat-n", "hs+sat-epv", "exact", "mm", "box"]
+        "pattern": r"^(auto|(box|exact|mm|hs|(hs\+)?sat-[enpv]{1,4})(\+cone(-sat)?)?)$",
+        "examples": ["auto", "hs", "hs+sat-n", "hs+sat-epv", "exact", "mm", "box", "exact+cone", "hs+cone-sat"]
     }))
 }
 

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::assign::{Bounds, Clusters, Compaction, Conservative, ListStore, Marking};
 use crate::culling::Culling;
-use crate::geometry::{DisplacedVolume, NormalCones, SliceLaw, VolumeTest};
+use crate::geometry::{DisplacedVolume, NormalCones, SliceLaw, SphereLevel, VolumeTest};
 use crate::lights::{
     Attenuation, GeneratorKind, LatticeBox, LightBox, LightMotion, LightSet, Lighting, SpotShare,
 };
@@ -305,6 +305,16 @@ settings! {
         arg(long, value_enum, value_name = "LIST", value_delimiter = ',')
         serde(default, deserialize_with = "de::ways")
         schemars(schema_with = "schema::conservative")
+        write(serialize_with = "ser::one_or_several")
+        check(values::check_ways)
+    }
+    /// How fine the meshes are that raster methods put around point lights, in vertices: `12` (an icosahedron), `42` (its triangles
+    /// divided in four, as in the paper), `162` or `642`. A finer mesh reaches less far beyond its light, so that fewer lights are listed
+    /// in vain, and has four times the triangles. Of several, with commas between, each is a run of every such method.
+    mesh_detail: Vec<SphereLevel> = vec![SphereLevel::V42], Run {
+        arg(long, value_name = "LIST", value_delimiter = ',')
+        serde(default, deserialize_with = "de::ways")
+        schemars(schema_with = "schema::mesh_detail")
         write(serialize_with = "ser::one_or_several")
         check(values::check_ways)
     }

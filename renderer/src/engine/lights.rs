@@ -7,7 +7,7 @@
 use crate::Result;
 use crate::buffers::BufferName;
 use crate::clustering::{FRAME_SLOTS, SharedBuffer, make_buffer};
-use crate::geometry::{self, LightMesh, LightVolume, MeshKind, SphericalSector, VolumeKind};
+use crate::geometry::{self, LightMesh, LightVolume, MeshKind, SphereLevel, SphericalSector, VolumeKind};
 use crate::gpu_interface::{LightData, MeshFrame, SpotData};
 use crate::lights::{ConeFalloff, FrameLights, Light, LightTally};
 use crate::pass::BufferCopy;
@@ -57,6 +57,8 @@ pub(super) struct Room {
     pub tally: LightTally,
     /// Whether the meshes around them are rasterised.
     pub meshes: bool,
+    /// How fine those around points are.
+    pub mesh_detail: SphereLevel,
 }
 
 impl Room {
@@ -79,8 +81,8 @@ impl Room {
 
 impl Meshes {
     /// The templates, and room for what places them.
-    fn new(context: &Arc<Context>, frames: u64) -> Result<Self> {
-        let templates = MeshKind::RASTERISED.map(LightMesh::new);
+    fn new(context: &Arc<Context>, frames: u64, points: SphereLevel) -> Result<Self> {
+        let templates = MeshKind::rasterised(points).map(LightMesh::new);
         let vertices: Vec<[f32; 4]> = templates
             .iter()
             .flat_map(|mesh| &mesh.vertices)
@@ -118,7 +120,7 @@ impl DeviceLights {
         Ok(Self {
             lights: make_buffer(context, BufferName::Lights, lights, Memory::Device)?,
             spots: make_buffer(context, BufferName::Spots, spots, Memory::Device)?,
-            meshes: Meshes::new(context, frames)?,
+            meshes: Meshes::new(context, frames, room.mesh_detail)?,
             staging: [staging()?, staging()?],
             data: Vec::with_capacity(room.count(true)),
             cones: Vec::with_capacity(room.count(room.tally.spots)),
@@ -195,7 +197,8 @@ fn mesh_frame(light: &Light, origin: DVec3) -> MeshFrame {
         None => LightVolume::sphere(light.place() - origin, light.r1.into()),
         Some(sector) => LightVolume::sector(SphericalSector { apex: sector.apex - origin, ..sector }),
     };
-    (&geometry::MeshFrame::of(&volume, MeshKind::LEVEL).1).into()
+    // Meshes around points differ in their templates alone.
+    (&geometry::MeshFrame::of(&volume, SphereLevel::default()).1).into()
 }
 
 /// A light as shaders read it in a frame with this origin.

@@ -167,8 +167,8 @@ impl Chosen {
     }
 
     /// What is kept of lights.
-    pub fn room(&self, mode: &Mode) -> Room {
-        Room { tally: mode.lights, meshes: self.assigner.rasterises() }
+    pub fn room(&self, run: &Config, mode: &Mode) -> Room {
+        Room { tally: mode.lights, meshes: self.assigner.rasterises(), mesh_detail: run.mesh_detail[0] }
     }
 
     /// What is asked of cones; nothing where no light has one.
@@ -203,6 +203,7 @@ impl Chosen {
             marking: run.marking,
             assigner: self.assigner,
             conservative: run.conservative[0],
+            mesh_detail: run.mesh_detail[0],
             test: VolumeTest { cone: self.cones(mode), ..self.test },
             lights_at_once: lights_at_once(self.method.has_lists(), mode.lights.count),
             shading: run.shading[0],

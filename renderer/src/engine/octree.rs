@@ -10,13 +10,14 @@ use super::growth::with_margin;
 use super::{Engine, FramePlan, Session};
 use crate::buffers::BufferName;
 use crate::clustering::FRAME_SLOTS;
+use crate::geometry::LightVolume;
 use crate::lights::FrameLights;
 use crate::measure::{GrowthEvent, OctreeBuild, OctreeCounts, OctreeSizes};
 use crate::methods::Method;
 use crate::methods::hashed::{self, HashedMethod, OctreeWay, SceneGeometry};
 use crate::octree::{
     BuildTimes, Dirty, DynamicOctree, LinklessOctree, OctreeError, OctreeGeometry, OctreeLimits,
-    OctreeSettings, Sphere,
+    OctreeSettings,
 };
 use crate::passes::octree::{OctreeTables, Table};
 use crate::vk::{Buffer, Context, Limits, Memory};
@@ -79,7 +80,7 @@ pub(super) struct HostOctree {
     standing: Option<Standing>,
     /// The box around what the lights of a revision reach, world space, metres.
     bounds: Option<(u64, Option<(DVec3, DVec3)>)>,
-    spheres: Vec<Sphere>,
+    volumes: Vec<LightVolume>,
     /// Tables as the host writes them, for each frame in flight.
     staging: [[Buffer; Table::ALL.len()]; FRAME_SLOTS],
     /// What of the tables the device has not.
@@ -103,7 +104,7 @@ impl HostOctree {
             way,
             standing: None,
             bounds: None,
-            spheres: vec![],
+            volumes: vec![],
             staging: staging(context, room)?,
             lacking: Dirty::All,
             done: Done::default(),
@@ -124,8 +125,8 @@ impl HostOctree {
         if self.standing.as_ref().is_some_and(|standing| standing.of == wanted) {
             return Ok(());
         }
-        self.spheres.clear();
-        self.spheres.extend(hashed::reaches(lights.list, slack));
+        self.volumes.clear();
+        self.volumes.extend(hashed::reaches(lights.list, slack));
         let room = hashed::largest_radius(lights.list);
         let settings = OctreeSettings {
             limits: octree_limits(limits),
@@ -140,7 +141,7 @@ impl HostOctree {
         Ok(())
     }
 
-    /// The octree over the spheres.
+    /// The octree over what lights reach.
     fn make(
         &mut self,
         surfaces: Option<&OctreeGeometry>,
@@ -149,16 +150,16 @@ impl HostOctree {
         let surfaces = surfaces.filter(|_| self.way == OctreeWay::Geometry);
         let (tree, times) = match (self.way, surfaces) {
             (OctreeWay::Dynamic(_), _) => {
-                let octree = DynamicOctree::new(&self.spheres, settings)?;
+                let octree = DynamicOctree::new(&self.volumes, settings)?;
                 let times = octree.times();
                 (Tree::Kept(octree.into()), times)
             }
             (_, Some(surfaces)) => {
-                let built = LinklessOctree::build_for(&self.spheres, surfaces, settings)?;
+                let built = LinklessOctree::build_for(&self.volumes, surfaces, settings)?;
                 (Tree::Built(built.octree), built.times)
             }
             (_, None) => {
-                let built = LinklessOctree::build(&self.spheres, settings)?;
+                let built = LinklessOctree::build(&self.volumes, settings)?;
                 (Tree::Built(built.octree), built.times)
             }
         };
@@ -167,9 +168,9 @@ impl HostOctree {
         Ok(tree)
     }
 
-    /// The octree that was kept, over the spheres.
+    /// The octree that was kept, over what lights reach.
     fn edit(&mut self, mut octree: Box<DynamicOctree>) -> std::result::Result<Tree, OctreeError> {
-        let report = octree.update(&self.spheres)?;
+        let report = octree.update(&self.volumes)?;
         let (rebuilds, tables_hashed) = match report.anew {
             true => (1, octree.octree().table_count()),
             false => (0, report.rebuilt as u64),
@@ -239,7 +240,7 @@ impl HostOctree {
     /// How the octree was built in `frame`, the frame at hand; `None` where it was not.
     pub fn build(&self, frame: u32) -> Option<OctreeBuild> {
         let octree = self.octree().filter(|_| self.done.rebuilds > 0)?;
-        let (lights, nodes) = (self.spheres.len() as u64, octree.nodes());
+        let (lights, nodes) = (self.volumes.len() as u64, octree.nodes());
         Some(OctreeBuild { frame, lights, nodes, times: self.done.times })
     }
 

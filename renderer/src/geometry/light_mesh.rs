@@ -9,19 +9,24 @@
 //! ```
 
 use super::{LightVolume, SphericalSector};
+use crate::nearest;
 use glam::{DVec3, DVec4};
 use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_8, TAU};
+use std::fmt;
+use std::str::FromStr;
 
 /// Vertices of the ring of a spot light's mesh.
 const RING: u16 = 8;
 
-/// How fine the mesh around a sphere is: an icosahedron whose triangles are divided in four, some times over.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// How fine the mesh around a sphere is: an icosahedron whose triangles are divided in four, some times over. Its name is the number of
+/// its vertices.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SphereLevel {
     /// 12 vertices: undivided.
     V12,
     /// 42 vertices: the paper's.
+    #[default]
     V42,
     /// 162 vertices.
     V162,
@@ -66,6 +71,21 @@ impl SphereLevel {
     }
 }
 
+impl fmt::Display for SphereLevel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.vertices().fmt(f)
+    }
+}
+
+impl FromStr for SphereLevel {
+    type Err = String;
+
+    /// Reads what [`fmt::Display`] writes.
+    fn from_str(text: &str) -> Result<Self, String> {
+        nearest::named(text, &Self::ALL, "number of vertices")
+    }
+}
+
 /// Which mesh a light has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MeshKind {
@@ -76,11 +96,10 @@ pub enum MeshKind {
 }
 
 impl MeshKind {
-    /// How fine the meshes around points are that are rasterised: the paper's.
-    pub const LEVEL: SphereLevel = SphereLevel::V42;
-
     /// The meshes that are rasterised, of points, then of spots; devices have their templates in this order.
-    pub const RASTERISED: [Self; 2] = [Self::Sphere(Self::LEVEL), Self::Spot];
+    pub const fn rasterised(points: SphereLevel) -> [Self; 2] {
+        [Self::Sphere(points), Self::Spot]
+    }
 }
 
 /// A convex mesh, as a template for many lights.

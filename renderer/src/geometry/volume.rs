@@ -29,7 +29,7 @@ impl VolumeKind {
 /// What a light reaches: a shape within a bounding sphere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LightVolume {
-    /// Centre of the bounding sphere, clustering space, metres.
+    /// Centre of the bounding sphere, metres, in the space of what it is tested against: clustering space, of octrees the world's.
     pub centre: DVec3,
     /// Radius of the bounding sphere, metres.
     pub radius: f64,
@@ -38,7 +38,7 @@ pub struct LightVolume {
 }
 
 impl LightVolume {
-    /// A sphere around `centre` (clustering space), lengths in metres.
+    /// A sphere around `centre`, lengths in metres.
     pub const fn sphere(centre: DVec3, radius: f64) -> Self {
         Self { centre, radius, sector: None }
     }

@@ -433,6 +433,11 @@ impl Method {
         self.rasterising() == Some(Assigner::Raster)
     }
 
+    /// Whether it rasterises meshes around lights, which may be finer or coarser.
+    pub fn has_meshes(&self) -> bool {
+        self.rasterising().is_some()
+    }
+
     /// Whether ways of assignment and tests of lights bear on the method.
     pub fn takes_ways(&self) -> bool {
         self.assigns() && !self.is_rasterised()

@@ -11,9 +11,10 @@ use super::geometry::OctreeGeometry;
 use super::light_grid::LightGrid;
 use super::light_tree::{BranchBudget, LightTree};
 use super::linkless::LinklessOctree;
-use super::settings::{OctreeError, OctreeSettings, Route, Sphere};
+use super::settings::{OctreeError, OctreeSettings, Route};
 use super::tree::Node;
 use super::{bottom_up, layers, top_down};
+use crate::geometry::LightVolume;
 use rayon::prelude::*;
 use std::time::Instant;
 
@@ -73,7 +74,7 @@ impl LinklessOctree {
     ///
     /// # Errors
     /// A light or the node size is no length above 0, or the octree is deeper or larger than the limits allow.
-    pub fn build(lights: &[Sphere], settings: &OctreeSettings) -> Result<Built, OctreeError> {
+    pub fn build(lights: &[LightVolume], settings: &OctreeSettings) -> Result<Built, OctreeError> {
         build(lights, None, settings)
     }
 
@@ -83,7 +84,7 @@ impl LinklessOctree {
     /// # Errors
     /// As [`Self::build`].
     pub fn build_for(
-        lights: &[Sphere],
+        lights: &[LightVolume],
         geometry: &OctreeGeometry,
         settings: &OctreeSettings,
     ) -> Result<Built, OctreeError> {
@@ -92,7 +93,7 @@ impl LinklessOctree {
 }
 
 fn build(
-    lights: &[Sphere],
+    lights: &[LightVolume],
     geometry: Option<&OctreeGeometry>,
     settings: &OctreeSettings,
 ) -> Result<Built, OctreeError> {
@@ -116,7 +117,7 @@ pub(super) fn timed<T>(seconds: &mut f64, work: impl FnOnce() -> T) -> T {
 
 /// The octree over lights, merged.
 fn scene_tree(
-    lights: &[Sphere],
+    lights: &[LightVolume],
     frame: &OctreeFrame,
     settings: &OctreeSettings,
     times: &mut BuildTimes,
@@ -143,7 +144,7 @@ fn scene_tree(
 /// # Errors
 /// They are too large, which is told of many before they are made.
 pub(super) fn light_trees(
-    lights: &[Sphere],
+    lights: &[LightVolume],
     frame: &OctreeFrame,
     most: usize,
 ) -> Result<Vec<LightTree>, OctreeError> {
@@ -162,7 +163,7 @@ pub(super) fn light_trees(
 }
 
 /// The grid of each light.
-fn light_grids(lights: &[Sphere], frame: &OctreeFrame) -> Result<Vec<LightGrid>, OctreeError> {
+fn light_grids(lights: &[LightVolume], frame: &OctreeFrame) -> Result<Vec<LightGrid>, OctreeError> {
     let balls: Vec<Ball> = lights.iter().map(|light| Ball::new(light, frame)).collect();
     let cells = balls.iter().map(LightGrid::size).fold(0, u64::saturating_add);
     if cells > MOST_GRID_CELLS {

@@ -1,6 +1,7 @@
 //! Where the cells of an octree lie (Tegelaers section 7.2.1).
 
-use super::settings::{OctreeError, OctreeSettings, Sphere};
+use super::settings::{OctreeError, OctreeSettings};
+use crate::geometry::LightVolume;
 use glam::{DVec3, UVec3};
 
 /// Deepest octree: coordinates of 21 bits, which three to a 64-bit code and single precision on the device hold.
@@ -27,7 +28,7 @@ impl OctreeFrame {
     ///
     /// # Errors
     /// A light or the node size is no number above 0, or the octree would be too deep.
-    pub fn around(lights: &[Sphere], settings: &OctreeSettings) -> Result<Self, OctreeError> {
+    pub fn around(lights: &[LightVolume], settings: &OctreeSettings) -> Result<Self, OctreeError> {
         let node = settings.node;
         if !(node.is_finite() && node > 0.0) {
             return Err(OctreeError::NodeSize(node));
@@ -62,8 +63,8 @@ impl OctreeFrame {
         inside.then(|| at.as_uvec3())
     }
 
-    /// Whether all of a ball lies in the octree.
-    pub(super) fn holds(&self, light: &Sphere) -> bool {
+    /// Whether all of a light's ball lies in the octree.
+    pub(super) fn holds(&self, light: &LightVolume) -> bool {
         let low = self.in_cells(light.centre - light.radius);
         let high = self.in_cells(light.centre + light.radius);
         low.cmpge(DVec3::ZERO).all() && high.cmple(DVec3::splat(f64::from(self.side()))).all()
@@ -82,9 +83,9 @@ fn depth_for(edge: f64, node: f64) -> u32 {
 }
 
 /// The box around all balls; a point where there are none.
-fn bounds(lights: &[Sphere]) -> Result<(DVec3, DVec3), OctreeError> {
+fn bounds(lights: &[LightVolume]) -> Result<(DVec3, DVec3), OctreeError> {
     let mut corners: Option<(DVec3, DVec3)> = None;
-    for (light, &Sphere { centre, radius }) in lights.iter().enumerate() {
+    for (light, &LightVolume { centre, radius, .. }) in lights.iter().enumerate() {
         if !(centre.is_finite() && radius.is_finite() && radius > 0.0) {
             return Err(OctreeError::Light { light, centre, radius });
         }

@@ -100,8 +100,9 @@ fn meets_box(triangle: &[DVec3; 3], centre: DVec3, half: DVec3) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{LinklessOctree, OctreeSettings, Sphere};
+    use super::super::{LinklessOctree, OctreeSettings};
     use super::*;
+    use crate::geometry::LightVolume;
     use proptest::prelude::*;
 
     type Point = [f64; 3];
@@ -111,9 +112,9 @@ mod tests {
         [point(), point(), point()]
     }
 
-    fn light() -> impl Strategy<Value = Sphere> {
+    fn light() -> impl Strategy<Value = LightVolume> {
         let light = ([-4.0..4.0f64, -4.0..4.0f64, -4.0..4.0f64], 0.3..3.0f64);
-        light.prop_map(|(centre, radius)| Sphere { centre: DVec3::from_array(centre), radius })
+        light.prop_map(|(centre, radius)| LightVolume::sphere(DVec3::from_array(centre), radius))
     }
 
     /// Points all over a triangle.
@@ -174,9 +175,8 @@ mod tests {
             [corner(-9.0, -9.0), corner(9.0, -9.0), corner(9.0, 9.0)],
             [corner(-9.0, -9.0), corner(9.0, 9.0), corner(-9.0, 9.0)],
         ];
-        let lights: Vec<Sphere> = (0..30)
-            .map(|at| Sphere { centre: DVec3::new(0.2 * f64::from(at), 0.0, 0.1), radius: 1.0 })
-            .collect();
+        let lights: Vec<LightVolume> =
+            (0..30).map(|at| LightVolume::sphere(DVec3::new(0.2 * f64::from(at), 0.0, 0.1), 1.0)).collect();
         let settings = OctreeSettings::new(0.1, 2);
         let whole = LinklessOctree::build(&lights, &settings).unwrap().octree;
         let trimmed =

@@ -137,8 +137,9 @@ fn branch(
 #[cfg(test)]
 mod tests {
     use super::super::frame::OctreeFrame;
-    use super::super::settings::{OctreeSettings, Sphere};
+    use super::super::settings::OctreeSettings;
     use super::*;
+    use crate::geometry::LightVolume;
     use glam::DVec3;
     use proptest::prelude::*;
 
@@ -150,8 +151,8 @@ mod tests {
         fn large_lights_have_as_many_branches_and_leaves_as_is_told(
             radius in 16.0..60.0f64, centre in [0.0..1.0f64, 0.0..1.0f64, 0.0..1.0f64],
         ) {
-            let light = Sphere { centre: DVec3::from_array(centre), radius };
-            let around = [light, Sphere { centre: DVec3::splat(0.5), radius: 64.0 }];
+            let light = LightVolume::sphere(DVec3::from_array(centre), radius);
+            let around = [light, LightVolume::sphere(DVec3::splat(0.5), 64.0)];
             let frame = OctreeFrame::around(&around, &OctreeSettings::new(1.0, 0)).unwrap();
             let ball = Ball::new(&light, &frame);
             let tree = LightTree::new(&ball, frame.depth, &BranchBudget::new(1 << 20)).unwrap();

@@ -24,6 +24,7 @@ mod light_tree;
 mod linkless;
 mod memory;
 pub mod perfect_hash;
+mod sector;
 mod settings;
 mod stored;
 mod top_down;
@@ -35,7 +36,7 @@ pub use frame::{MOST_DEPTH, OctreeFrame};
 pub use geometry::OctreeGeometry;
 pub use linkless::{HashTable, Layer, LinklessOctree};
 pub use memory::{LayerMemory, TableMemory};
-pub use settings::{OctreeError, OctreeLimits, OctreeSettings, Route, Sphere};
+pub use settings::{OctreeError, OctreeLimits, OctreeSettings, Route};
 pub use stored::{StoredKind, StoredNode};
 
 #[cfg(test)]

@@ -2,15 +2,6 @@
 
 use glam::DVec3;
 
-/// What reaches how far: the ball that a light's reach fills.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sphere {
-    /// Middle of the ball, world space, metres.
-    pub centre: DVec3,
-    /// Radius of the ball, metres, with whatever slack the lookups of single precision need.
-    pub radius: f64,
-}
-
 /// How the scene's octree is built. Both routes make the same tree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Route {

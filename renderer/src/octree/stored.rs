@@ -60,14 +60,15 @@ impl LinklessOctree {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{OctreeSettings, Sphere};
+    use super::super::OctreeSettings;
     use super::*;
+    use crate::geometry::LightVolume;
     use glam::DVec3;
     use std::collections::BTreeSet;
 
     #[test]
     fn every_key_is_found_once_and_where_a_lookup_finds_it() {
-        let sphere = |x: f64, radius| Sphere { centre: DVec3::new(x, 0.5 * x, 1.0), radius };
+        let sphere = |x: f64, radius| LightVolume::sphere(DVec3::new(x, 0.5 * x, 1.0), radius);
         let lights = [sphere(0.0, 3.0), sphere(4.0, 2.0), sphere(-7.0, 1.5)];
         for start in [0, 2] {
             let built = LinklessOctree::build(&lights, &OctreeSettings::new(0.5, start)).unwrap();

@@ -2,15 +2,32 @@
 
 use super::tree::{Node, Place};
 use super::*;
+use crate::geometry::{LightVolume, SphericalSector};
 use glam::{DVec3, UVec3};
 use proptest::prelude::*;
 use rand_pcg::Pcg32;
+use std::f64::consts::FRAC_PI_2;
 
 /// Lights in a box of 8 by 4 by 8 m.
-fn some_lights(most: usize) -> impl Strategy<Value = Vec<Sphere>> {
+fn some_lights(most: usize) -> impl Strategy<Value = Vec<LightVolume>> {
     let light = ([-4.0..4.0f64, -2.0..2.0f64, -4.0..4.0f64], 0.1..2.0f64);
-    let sphere = |(centre, radius)| Sphere { centre: DVec3::from_array(centre), radius };
+    let sphere = |(centre, radius)| LightVolume::sphere(DVec3::from_array(centre), radius);
     proptest::collection::vec(light.prop_map(sphere), 0..most)
+}
+
+/// The spot light that shines from `apex` away from the origin.
+pub(super) fn shining_outwards(apex: DVec3, range: f64, half_angle: f64) -> LightVolume {
+    LightVolume::sector(SphericalSector { apex, axis: apex.normalize_or(DVec3::X), range, half_angle })
+}
+
+/// Spots of 3 to 90 degrees among lights that shine all around.
+fn spots_and_points(most: usize) -> impl Strategy<Value = Vec<LightVolume>> {
+    let angle = proptest::option::weighted(0.7, 0.05..=FRAC_PI_2);
+    let shine = |(light, angle): (LightVolume, Option<f64>)| {
+        angle.map_or(light, |angle| shining_outwards(light.centre, 2.0 * light.radius, angle))
+    };
+    (some_lights(most), proptest::collection::vec(angle, most))
+        .prop_map(move |(lights, angles)| lights.into_iter().zip(angles).map(shine).collect())
 }
 
 /// A hundred points in and around the lights' box, the same each time.
@@ -21,7 +38,7 @@ pub(super) fn points() -> impl Iterator<Item = DVec3> {
     })
 }
 
-fn built(lights: &[Sphere], settings: &OctreeSettings) -> LinklessOctree {
+fn built(lights: &[LightVolume], settings: &OctreeSettings) -> LinklessOctree {
     LinklessOctree::build(lights, settings).unwrap().octree
 }
 
@@ -43,19 +60,45 @@ proptest! {
                 prop_assert!(lights.iter().all(|light| light.centre.distance(point) > light.radius));
                 continue;
             };
-            let away = |light: &Sphere| distance(&octree.frame, cell, light.centre) - light.radius;
+            let away = |light: &LightVolume| distance(&octree.frame, cell, light.centre) - light.radius;
             let met: Vec<u32> = (0..).zip(&lights).filter(|(_, light)| away(light) <= 0.0).map(|(index, _)| index).collect();
             let touched: Vec<u32> = (0..).zip(&lights).filter(|(_, light)| away(light) <= 1e-9).map(|(index, _)| index).collect();
             prop_assert!(listed == met || listed == touched, "{listed:?} {met:?}");
         }
     }
 
+    /// Of a cell that a sector has a ball in, or misses the ball around, the answer is known without the test of octrees.
     #[test]
-    fn both_routes_make_the_same_octree(lights in some_lights(12), node in 0.2..3.0f64, start in 0..5_u32) {
+    fn a_cell_lists_spots_by_what_their_cones_reach(lights in spots_and_points(12), node in 0.2..2.0f64, start in 0..5_u32) {
+        let octree = built(&lights, &OctreeSettings::new(node, start));
+        for point in points() {
+            let Some(cell) = octree.frame.cell(point) else { continue };
+            let listed = octree.lights_at(point);
+            let middle = octree.frame.origin + (cell.as_dvec3() + 0.5) * octree.frame.node;
+            for (index, light) in (0..).zip(&lights) {
+                let Some(sector) = light.sector else { continue };
+                let (is_listed, away) = (listed.contains(&index), sector.distance(middle));
+                prop_assert!(is_listed || away > node / 2.0 - 1e-9 && !sector.contains(point), "{sector:?} lost at {point}");
+                prop_assert!(!is_listed || away < node * 0.75f64.sqrt() + 1e-9, "{sector:?} {away} m from {point}");
+            }
+        }
+    }
+
+    #[test]
+    fn both_routes_make_the_same_octree(lights in spots_and_points(12), node in 0.2..3.0f64, start in 0..5_u32) {
         let top_down = OctreeSettings::new(node, start);
         let bottom_up = OctreeSettings { route: Route::BottomUp, ..top_down };
         prop_assert_eq!(built(&lights, &top_down), built(&lights, &bottom_up));
     }
+}
+
+/// A light as far around as it reaches takes the cells of its ball, one in a cone a part of them.
+#[test]
+fn narrow_spots_take_few_cells() {
+    let indices = |light| built(&[light], &OctreeSettings::new(0.05, 0)).indices.len();
+    let around = indices(LightVolume::sphere(DVec3::X, 1.0));
+    let [half, narrow] = [FRAC_PI_2, 0.2].map(|angle| indices(shining_outwards(DVec3::X, 1.0, angle)));
+    assert!(narrow * 8 < half && half < around, "{narrow} {half} {around}");
 }
 
 #[test]
@@ -80,11 +123,11 @@ fn merging_takes_equal_leaves_together_and_nothing_else() {
 }
 
 /// `count` lights of radius 1 m, anywhere in a box of this size.
-pub(super) fn crowd(count: usize, size: DVec3) -> Vec<Sphere> {
+pub(super) fn crowd(count: usize, size: DVec3) -> Vec<LightVolume> {
     let mut random = Pcg32::new(1, 2);
     let mut part = || f64::from(random.next_u32()) / f64::from(u32::MAX);
     let mut centre = || DVec3::new(part(), part(), part()) * size;
-    (0..count).map(|_| Sphere { centre: centre(), radius: 1.0 }).collect()
+    (0..count).map(|_| LightVolume::sphere(centre(), 1.0)).collect()
 }
 
 #[test]
@@ -148,7 +191,7 @@ fn lookups_do_not_depend_on_where_they_begin_nor_on_the_seed_or_shared_runs() {
 }
 
 /// The power of one over the node size by which the number of keys grows where it is halved from `node` metres on.
-fn growth(lights: &[Sphere], node: f64) -> f64 {
+fn growth(lights: &[LightVolume], node: f64) -> f64 {
     let keys = |table: &TableMemory| table.keys as f64;
     let of_layer = |layer: LayerMemory| keys(&layer.structure) + layer.data.as_ref().map_or(0.0, keys);
     let all =
@@ -200,15 +243,15 @@ fn memory_by_layer_is_what_the_buffers_hold() {
 mod broken {
     use super::*;
 
-    fn error(lights: &[Sphere], settings: &OctreeSettings) -> String {
+    fn error(lights: &[LightVolume], settings: &OctreeSettings) -> String {
         let error = LinklessOctree::build(lights, settings).unwrap_err();
         let text = error.to_string();
         assert!(!text.contains('\n'));
         text
     }
 
-    fn light(x: f64, radius: f64) -> Sphere {
-        Sphere { centre: DVec3::new(x, 0.0, 0.0), radius }
+    fn light(x: f64, radius: f64) -> LightVolume {
+        LightVolume::sphere(DVec3::new(x, 0.0, 0.0), radius)
     }
 
     #[test]

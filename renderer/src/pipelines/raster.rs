@@ -100,7 +100,7 @@ impl PipelineStore {
 /// Meshes of points, then of spots where there are such.
 fn meshes(variant: &Variant) -> Vec<Meshes> {
     let (mut first_vertex, mut first_triangle) = (0, 0);
-    let kinds = ["MESH_SPHERE", "MESH_SPOT"].into_iter().zip(MeshKind::RASTERISED);
+    let kinds = ["MESH_SPHERE", "MESH_SPOT"].into_iter().zip(MeshKind::rasterised(variant.mesh_detail));
     let of = |(name, kind)| {
         let LightMesh { vertices, triangles } = LightMesh::new(kind);
         let defines = variant.list_defines().with("MESH", name).with("MESH_VERTICES", vertices.len());

@@ -16,7 +16,7 @@ use crate::engine::{
 use crate::geometry::VolumeTest;
 use crate::gpu_interface::ClusteringState;
 use crate::inputs::Inputs;
-use crate::lights::{FrameLights, Generator, LightTally, Lighting, LightsFrom, SpotShare};
+use crate::lights::{FrameLights, Generator, LightTally, Lighting, LightsFrom};
 use crate::methods::Method;
 use crate::output::makes_lists;
 use crate::passes::readback;
@@ -62,6 +62,8 @@ impl AssignBench {
 pub struct BenchRow {
     /// Number of lights.
     pub lights: u32,
+    /// How many of them are spots.
+    pub spots: u32,
     /// Name of the method.
     pub method: String,
     /// The way: `brute`, `hierarchy`, `scatter` or `rectangles`; or [`LIMIT`], the least that any way can do.
@@ -83,7 +85,7 @@ pub struct BenchRow {
     pub over_limit: f64,
 }
 
-/// Times `bench` by the config's methods, scene, recording and resolution; rows come as soon as they are measured.
+/// Times `bench` by the config's methods, scene, recording, resolution and part of spots; rows come as soon as they are measured.
 ///
 /// # Errors
 /// As [`super::replay`].
@@ -98,7 +100,7 @@ pub fn bench_assign(
     session.context.require_timestamps()?;
     for lighting in &bench.lights {
         let mut source =
-            inputs.light_source(&LightsFrom::Generated(Generator::Rain, *lighting, SpotShare::default()))?;
+            inputs.light_source(&LightsFrom::Generated(Generator::Rain, *lighting, config.spots))?;
         for &frame in &bench.frames {
             let lights = source.at_frame(frame);
             let range = FrameRange { first: frame, end: Some(frame + 1), step: 1 };
@@ -222,6 +224,7 @@ impl TimedFrame<'_> {
         let sum = |count: fn(&ClusteringState) -> u32| states.iter().map(|s| u64::from(count(s))).sum();
         Ok(BenchRow {
             lights,
+            spots: self.lights.list.iter().filter(|light| light.spot.is_some()).count() as u32,
             method: self.run.methods[0].to_string(),
             assign: assigner.to_string(),
             test: test.to_string(),

@@ -146,12 +146,13 @@ fn compose(columns: &[[Panel; 2]]) -> RgbImage {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::octree::{OctreeSettings, Sphere};
+    use crate::geometry::LightVolume;
+    use crate::octree::OctreeSettings;
     use glam::DVec3;
 
     #[test]
     fn every_key_is_a_pixel_of_its_table() {
-        let lights = [0.0, 5.0, -4.0].map(|x| Sphere { centre: DVec3::splat(x), radius: 2.0 });
+        let lights = [0.0, 5.0, -4.0].map(|x| LightVolume::sphere(DVec3::splat(x), 2.0));
         let octree = LinklessOctree::build(&lights, &OctreeSettings::new(1.0, 1)).unwrap().octree;
         let taken = Taken::of(&octree);
         let pictures = pictures(&octree);

@@ -97,8 +97,9 @@ mod tests {
 
     #[test]
     fn leaves_are_boxes_of_their_depth() {
-        use crate::octree::{OctreeSettings, Sphere};
-        let light = Sphere { centre: DVec3::splat(1.0), radius: 4.0 };
+        use crate::geometry::LightVolume;
+        use crate::octree::OctreeSettings;
+        let light = LightVolume::sphere(DVec3::splat(1.0), 4.0);
         let octree = LinklessOctree::build(&[light], &OctreeSettings::new(1.0, 0)).unwrap().octree;
         let origin = DVec3::new(100.0, 0.0, 0.0);
         let lines = leaves(&octree, origin);

@@ -2,6 +2,7 @@
 
 use manylight_tests::manylight;
 use manylight_tests::program::{printed, refused};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 #[test]
@@ -32,6 +33,32 @@ fn assignment_is_drawn_over_lights_and_over_clusters() {
     assert_eq!(read("assign_clusters.svg").matches("mark-line").count(), 2 * ways);
     let exponents = read("assign_exponents.csv");
     assert_eq!(exponents.lines().count(), 1 + 4 * ways, "{exponents}");
+}
+
+#[test]
+fn what_cones_cost_and_spare_is_measured_by_every_way() {
+    let out = tempfile::tempdir().unwrap();
+    let mut command = manylight();
+    command.args(["bench", "assign", "--quiet", "--resolution", "64x48", "--frame", "300", "--repeats", "1"]);
+    command.args(["--lights", "300", "--spots", "0.75", "--method", "indi-persp-16"]);
+    command.args(["--test", "exact,exact+cone-sat,exact+cone"]);
+    printed(command.arg("--out").arg(out.path().join("assign.csv")));
+    let mut rows = csv::Reader::from_path(out.path().join("assign.csv")).unwrap();
+    let rows: Vec<BTreeMap<String, String>> = rows.deserialize().map(Result::unwrap).collect();
+    assert!(rows.len() == 3 * 4 && rows.iter().all(|row| row["spots"] == "225"), "{rows:?}");
+    let indices = ["exact", "exact+cone-sat", "exact+cone"].map(|test| {
+        let listed: BTreeSet<u64> = rows
+            .iter()
+            .filter(|row| row["test"] == test)
+            .map(|row| row["light_indices"].parse().unwrap())
+            .collect();
+        assert_eq!(listed.len(), 1, "{test}: {listed:?}");
+        listed.first().copied().unwrap()
+    });
+    let [spheres, axes, cones] = indices;
+    assert!(0 < cones && cones <= axes && axes < spheres, "{indices:?}");
+    let told = refused(manylight().args(["bench", "assign", "--spots", "1.5"]));
+    assert!(told.contains("1.5 is no part of the lights"), "{told}");
 }
 
 #[test]

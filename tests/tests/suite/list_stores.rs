@@ -6,7 +6,7 @@ use manylight::config::{Assign, Config, ExrFrames, FrameRange};
 use manylight::lights::Lighting;
 use manylight::shading::ShadingPipeline;
 use manylight_tests::program::{read, refused, small, stderr, succeed, text};
-use manylight_tests::{Run, assert_equal_the_truth, manylight, methods, run};
+use manylight_tests::{Run, assert_equal_the_truth, few_far_lights, manylight, methods, run};
 
 /// Every kind of group, with measured bounds among them.
 const NAMES: [&str; 6] = ["indi-persp-16", "encl-ortho-4", "sc-e-12-10", "dc-i-16-12", "g-7", "m"];
@@ -17,7 +17,8 @@ fn config(recording: &str, msaa: u32, names: &[&str]) -> Config {
     Config {
         recording: recording.to_owned(),
         methods: methods(names),
-        resolution: [80, 48],
+        lights: few_far_lights(),
+        resolution: [56, 36],
         msaa,
         frames: FrameRange { first: 300, end: Some(301), step: 1 },
         runs: 0.into(),
@@ -180,8 +181,9 @@ fn places_of_a_counter_change_nothing() {
         };
         let runs = run(config.clone());
         assert_all_same(&runs, 2);
-        let again = run(Config { compaction: vec![Compaction::Atomic], ..config });
-        runs.iter().skip(1).step_by(2).zip(&again).for_each(|(one, other)| assert_same(one, other));
+        // Whose threads take which place differs from run to run.
+        let again = run(Config { compaction: vec![ways[1]], methods: methods(&names[..1]), ..config });
+        assert_same(&runs[1], &again[0]);
     }
 }
 

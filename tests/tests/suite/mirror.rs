@@ -9,7 +9,7 @@ use manylight::inputs::Inputs;
 use manylight::measure::ViewPixels;
 use manylight::output::tone_map;
 use manylight::recording::{self, Recording};
-use manylight_tests::{METHODS, Run, difference, methods, run, run_inputs};
+use manylight_tests::{METHODS, Run, difference, few_far_lights, methods, run, run_inputs};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::Path;
@@ -25,6 +25,7 @@ fn config(names: &[&str]) -> Config {
     Config {
         recording: "bistro-mirror".into(),
         methods: methods(names),
+        lights: few_far_lights(),
         resolution: [56, 56],
         frames: FrameRange { first: FRAME, end: Some(581), step: 220 },
         runs: 0.into(),

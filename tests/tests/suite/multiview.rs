@@ -3,13 +3,14 @@
 use manylight::assign::Marking;
 use manylight::config::{Config, ExrFrames, FrameRange};
 use manylight::culling::Culling;
-use manylight_tests::{Run, methods, run};
+use manylight_tests::{Run, few_far_lights, methods, run};
 
 const METHODS: [&str; 4] = ["all-lights", "indi-persp-64", "encl-persp-64", "encl-ortho-4"];
 
 fn config(msaa: u32) -> Config {
     Config {
         methods: methods(&METHODS),
+        lights: few_far_lights(),
         resolution: [48, 32],
         msaa,
         frames: FrameRange { first: 300, end: Some(581), step: 280 },

@@ -27,20 +27,25 @@ fn data_of(grid: &Grid) -> (GridData, Vec<f32>) {
 }
 
 /// The slices of each tile in which a light's mesh lies.
-fn shell_of(grid: &Grid, frame: &MeshFrame) -> Vec<Option<[u32; 2]>> {
+fn shell_of(grid: &Grid, frame: &MeshFrame, points: SphereLevel) -> Vec<Option<[u32; 2]>> {
     let (data, planes) = data_of(grid);
     let is_spot = frame.tip != [0.0; 3];
-    let mesh = LightMesh::new(if is_spot { MeshKind::Spot } else { MeshKind::Sphere(SphereLevel::V42) });
+    let mesh = LightMesh::new(if is_spot { MeshKind::Spot } else { MeshKind::Sphere(points) });
     let vertices: Vec<_> = mesh.vertices.iter().map(|vertex| cpu::placed(frame, vertex.as_vec4())).collect();
     let mesh = cpu::ViewMesh { vertices: &vertices, triangles: &mesh.triangles };
     let shell = cpu::shell(&cpu::ShellGrid { grid: &data, planes: &planes }, &mesh);
     shell.into_iter().map(|range| range.slices(grid.dimensions[2])).collect()
 }
 
-/// A method's lists of the visible clusters of a grid, these, and what placed the meshes.
-fn lists(name: &str, law: SliceLaw, lights: &[Light]) -> (Lists, Vec<u32>, Vec<MeshFrame>) {
+/// A method's lists of the visible clusters of a grid, these, and what placed the meshes, of points so fine.
+fn lists(
+    (name, law): (&str, SliceLaw),
+    points: SphereLevel,
+    lights: &[Light],
+) -> (Lists, Vec<u32>, Vec<MeshFrame>) {
     let method: Method = name.parse().unwrap();
-    let (mut bench, clusters) = with_clusters(&by_law(law), (method, sliced(law)), lights);
+    let config = Config { mesh_detail: vec![points], ..by_law(law) };
+    let (mut bench, clusters) = with_clusters(&config, (method, sliced(law)), lights);
     let lists = bench.lists();
     let words = size_of::<MeshFrame>() / 4 * lights.len();
     let frames = bytemuck::cast_slice(&bench.download(BufferName::LightFrames, words)).to_vec();
@@ -55,10 +60,11 @@ const METHODS: [(&str, SliceLaw); 3] = [
 
 #[test]
 fn lists_are_those_of_the_shells_on_the_host() {
-    for (name, law) in METHODS {
+    let levels = [SphereLevel::V42, SphereLevel::V162, SphereLevel::V12];
+    for ((name, law), level) in METHODS.into_iter().zip(levels) {
         let (grid, lights) = (sliced(law), mixed(700));
-        let (lists, clusters, frames) = lists(name, law, &lights);
-        let shells: Vec<_> = frames.iter().map(|frame| shell_of(&grid, frame)).collect();
+        let (lists, clusters, frames) = lists((name, law), level, &lights);
+        let shells: Vec<_> = frames.iter().map(|frame| shell_of(&grid, frame, level)).collect();
         for (place, cluster) in clusters.iter().enumerate() {
             let [x, y, z] = grid.cluster_at(*cluster);
             let tile = (x + grid.dimensions[0] * y) as usize;
@@ -73,23 +79,44 @@ fn lists_are_those_of_the_shells_on_the_host() {
     }
 }
 
+/// A light that reaches a cluster by more than rounding and is not on its list.
+fn lost(twin: &cpu::LightLists, lists: &Lists, place: usize) -> Option<u32> {
+    let is_lost = |light: &u32| {
+        twin.borderline[place].binary_search(light).is_err() && lists.of(place).binary_search(light).is_err()
+    };
+    twin.list(place).iter().copied().find(is_lost)
+}
+
 #[test]
 fn no_cluster_that_a_light_reaches_is_left_out_and_few_others_are_taken() {
     for (name, law) in METHODS {
         let (grid, lights) = (sliced(law), mixed(700));
-        let (lists, clusters, _) = lists(name, law, &lights);
+        let (lists, clusters, _) = lists((name, law), SphereLevel::V42, &lights);
         let exact: VolumeTest = "exact+cone".parse().unwrap();
         let twin = cpu::assign(&grid, &clusters, &lights, exact, 1e-3);
         for (place, cluster) in clusters.iter().enumerate() {
-            let lost = |light: &&u32| {
-                twin.borderline[place].binary_search(light).is_err()
-                    && lists.of(place).binary_search(light).is_err()
-            };
-            assert_eq!(twin.list(place).iter().find(lost), None, "{name}: cluster {cluster}");
+            assert_eq!(lost(&twin, &lists, place), None, "{name}: cluster {cluster}");
         }
         let [found, reached] = [lists.indices.len(), twin.indices.len()];
         assert!(found >= reached && 10 * found < 16 * reached, "{name}: {found} of {reached}");
     }
+}
+
+/// However fine meshes are, they hold their lights.
+#[test]
+fn finer_meshes_list_fewer_lights_and_lose_none() {
+    let (case, lights) = (METHODS[2], mixed(700));
+    let exact: VolumeTest = "exact+cone".parse().unwrap();
+    let mut found = vec![];
+    for level in SphereLevel::ALL {
+        let (lists, clusters, _) = lists(case, level, &lights);
+        let twin = cpu::assign(&sliced(case.1), &clusters, &lights, exact, 1e-3);
+        for (place, cluster) in clusters.iter().enumerate() {
+            assert_eq!(lost(&twin, &lists, place), None, "{level}: cluster {cluster}");
+        }
+        found.push(lists.indices.len());
+    }
+    assert!(found.windows(2).all(|levels| levels[1] < levels[0]), "{found:?}");
 }
 
 /// Lists of a method on a grid of its own law, kept so, with the bench that made them.

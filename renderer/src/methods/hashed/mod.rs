@@ -21,8 +21,9 @@ pub use way::OctreeWay;
 
 use super::{Method, Size, Unit};
 use crate::clustering::SLACK_PER_METRE;
+use crate::geometry::LightVolume;
 use crate::lights::Light;
-use crate::octree::{OctreeSettings, Sphere};
+use crate::octree::OctreeSettings;
 use crate::pass::Recorder;
 use crate::passes::{Depth, Frame, LightLists, octree};
 use crate::{Error, Result};
@@ -96,16 +97,18 @@ pub fn largest_radius(lights: &[Light]) -> f64 {
 }
 
 /// What lights reach, with `slack` metres to cover what rounding moves a fragment by; the place of a light among them is its own.
-pub fn reaches(lights: &[Light], slack: f64) -> impl Iterator<Item = Sphere> + '_ {
-    lights.iter().map(Light::bounding_sphere).map(move |(centre, radius)| Sphere {
-        centre,
-        radius: radius * (1.0 + f64::from(SLACK_PER_METRE)) + slack,
+pub fn reaches(lights: &[Light], slack: f64) -> impl Iterator<Item = LightVolume> + '_ {
+    let grown_by = move |reach: f64| reach * f64::from(SLACK_PER_METRE) + slack;
+    lights.iter().map(move |light| match light.sector() {
+        Some(sector) => LightVolume::sector(sector.grown(grown_by(sector.range)).unwrap_or(sector)),
+        None => LightVolume::sphere(light.place(), f64::from(light.r1) + grown_by(light.r1.into())),
     })
 }
 
 /// The box around what all lights reach, metres; `None` without lights.
 pub fn bounds(lights: &[Light]) -> Option<(DVec3, DVec3)> {
-    let corners = reaches(lights, 0.0).map(|Sphere { centre, radius }| (centre - radius, centre + radius));
+    let corners =
+        reaches(lights, 0.0).map(|LightVolume { centre, radius, .. }| (centre - radius, centre + radius));
     corners.reduce(|(low, high), other| (low.min(other.0), high.max(other.1)))
 }
 

@@ -23,9 +23,10 @@ use super::frame::OctreeFrame;
 use super::layers::{self, StoredLayer, kind};
 use super::light_tree::{LightTree, Reach};
 use super::linkless::{LinklessOctree, child_bits};
-use super::settings::{OctreeError, OctreeSettings, Sphere};
+use super::settings::{OctreeError, OctreeSettings};
 use super::top_down;
 use super::tree::{Node, Place};
+use crate::geometry::LightVolume;
 use edit::{Change, Editor};
 pub use report::{Dirty, UpdateReport};
 use runs::Runs;
@@ -36,7 +37,7 @@ use table::Table;
 #[derive(Debug, Clone)]
 pub struct DynamicOctree {
     settings: OctreeSettings,
-    lights: Vec<Sphere>,
+    lights: Vec<LightVolume>,
     trees: Vec<LightTree>,
     /// What the tables say; nodes above and of the starting depth are branches.
     tree: Node,
@@ -60,7 +61,7 @@ impl DynamicOctree {
     ///
     /// # Errors
     /// As [`LinklessOctree::build`].
-    pub fn new(lights: &[Sphere], settings: &OctreeSettings) -> Result<Self, OctreeError> {
+    pub fn new(lights: &[LightVolume], settings: &OctreeSettings) -> Result<Self, OctreeError> {
         let settings = OctreeSettings { share_runs: false, ..*settings };
         let mut times = BuildTimes::default();
         let frame = timed(&mut times.empty, || OctreeFrame::around(lights, &settings))?;
@@ -99,7 +100,7 @@ impl DynamicOctree {
     ///
     /// # Errors
     /// As [`LinklessOctree::build`]. The octree may no longer be used then.
-    pub fn update(&mut self, lights: &[Sphere]) -> Result<UpdateReport, OctreeError> {
+    pub fn update(&mut self, lights: &[LightVolume]) -> Result<UpdateReport, OctreeError> {
         let mut times = BuildTimes::default();
         timed(&mut times.empty, || OctreeFrame::around(lights, &self.settings))?;
         let common = lights.len().min(self.lights.len());
@@ -126,7 +127,7 @@ impl DynamicOctree {
     }
 
     /// The octree that is built of lights without one before.
-    fn rebuild(&mut self, lights: &[Sphere], changed: usize) -> Result<UpdateReport, OctreeError> {
+    fn rebuild(&mut self, lights: &[LightVolume], changed: usize) -> Result<UpdateReport, OctreeError> {
         *self = Self::new(lights, &self.settings)?;
         let rebuilt = 2 * self.layers.len();
         Ok(UpdateReport { changed, anew: true, rebuilt, dirty: Dirty::All, ..UpdateReport::default() })
@@ -135,14 +136,14 @@ impl DynamicOctree {
     /// Edits the scene's octree by the lights that changed; the nodes that are no longer as the tables have them.
     fn edit(
         &mut self,
-        lights: &[Sphere],
+        lights: &[LightVolume],
         changed: &[usize],
         times: &mut BuildTimes,
     ) -> Result<BTreeSet<Place>, OctreeError> {
         let frame = &self.octree.frame;
         let present: Vec<usize> = changed.iter().copied().filter(|light| *light < lights.len()).collect();
-        let spheres: Vec<Sphere> = present.iter().map(|light| lights[*light]).collect();
-        let new = timed(&mut times.lights, || light_trees(&spheres, frame, self.settings.limits.indices))?;
+        let volumes: Vec<LightVolume> = present.iter().map(|light| lights[*light]).collect();
+        let new = timed(&mut times.lights, || light_trees(&volumes, frame, self.settings.limits.indices))?;
         // A light that is not there fills nothing.
         let most = lights.len().max(self.lights.len());
         self.trees.resize(most, LightTree::EMPTY);

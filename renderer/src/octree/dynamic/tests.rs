@@ -1,6 +1,6 @@
 //! Octrees that follow their lights, against the lights and against octrees built anew.
 
-use super::super::tests::{crowd, points};
+use super::super::tests::{crowd, points, shining_outwards};
 use super::*;
 use glam::DVec3;
 use proptest::prelude::*;
@@ -13,14 +13,19 @@ fn steps() -> impl Strategy<Value = Vec<Vec<Step>>> {
     proptest::collection::vec(proptest::collection::vec(step, 1..4), 1..8)
 }
 
-fn apply(lights: &mut Vec<Sphere>, (light, centre, radius): Step) {
-    let sphere = Sphere { centre: DVec3::from_array(centre), radius };
+/// Lights beyond x = 0 are spots, so that those that move become another kind, too.
+fn apply(lights: &mut Vec<LightVolume>, (light, centre, radius): Step) {
+    let place = DVec3::from_array(centre);
+    let volume = match centre[0] > 0.0 {
+        true => shining_outwards(place, radius, 0.7 * radius),
+        false => LightVolume::sphere(place, radius),
+    };
     if radius < 0.2 {
         lights.pop();
     } else if light < lights.len() {
-        lights[light] = sphere;
+        lights[light] = volume;
     } else {
-        lights.push(sphere);
+        lights.push(volume);
     }
 }
 
@@ -29,13 +34,14 @@ fn settings(node: f64, start: u32, slack: f64) -> OctreeSettings {
 }
 
 /// Checks that each cell lists the lights that reach it, at points all over.
-fn check_superset(octree: &LinklessOctree, lights: &[Sphere]) {
+fn check_superset(octree: &LinklessOctree, lights: &[LightVolume]) {
     for point in points() {
         let listed = octree.lights_at(point);
         assert!(listed.is_sorted());
         assert!(listed.iter().all(|light| (*light as usize) < lights.len()));
         for (index, light) in (0..).zip(lights) {
-            let reached = light.centre.distance(point) <= light.radius;
+            let away = light.centre.distance(point) - light.radius;
+            let reached = light.sector.map_or(away <= 0.0, |sector| sector.contains(point));
             assert!(!reached || listed.contains(&index), "{index} of {listed:?} at {point}");
         }
     }
@@ -151,7 +157,7 @@ fn lights_that_leave_the_octree_build_it_anew() {
 #[test]
 fn a_light_that_shrinks_within_a_leaf_stays_in_its_list_until_repaired() {
     // The large light fills leaves that the small one would not.
-    let light = |radius| [Sphere { centre: DVec3::splat(0.3), radius }];
+    let light = |radius| [LightVolume::sphere(DVec3::splat(0.3), radius)];
     let mut dynamic = DynamicOctree::new(&light(4.0), &settings(0.25, 0, 4.0)).unwrap();
     let report = dynamic.update(&light(2.0)).unwrap();
     assert!(report.extras > 0 && dynamic.extra_indices() > 0);
