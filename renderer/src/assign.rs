@@ -8,10 +8,12 @@
 //! that the mesh around each light meets.
 
 mod conservative;
+mod mesh_detail;
 mod sorted_tiles;
 mod store;
 
 pub use conservative::Conservative;
+pub use mesh_detail::MeshDetail;
 pub use sorted_tiles::{check_sorted_slices, check_sorted_tiles, sorted_keys, sorted_threads};
 pub use store::{Compaction, Links, ListStore, MOST_CAPPED, MOST_FIXED, NODES_PER_CLUSTER, NodeLayout};
 

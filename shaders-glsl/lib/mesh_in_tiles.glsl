@@ -4,12 +4,21 @@
 //                                                                ├─> tiles in which the mesh is seen ─┘
 //                                                                └─> depths in the tile ──────────────┘
 //
-// MESH says of which lights: points (MESH_SPHERE) or spots. Their template is MESH_VERTICES of `mesh_vertices` from FIRST_VERTEX on, and
+// lib/mesh_of_light.glsl says which lights have it. Their template is MESH_VERTICES of `mesh_vertices` from FIRST_VERTEX on, and
 // MESH_TRIANGLES of `mesh_triangles` from FIRST_TRIANGLE on (three 10-bit numbers a word).
 #pragma once
 
-#include "lib/light_mesh.glsl"
+#include "lib/mesh_of_light.glsl"
 #include "lib/seen_tiles.glsl"
+#extension GL_EXT_control_flow_attributes : require
+
+// Vertices and triangles of one turn, meshes have a multiple of the latter: many of fine meshes, as lavapipe ends a shader's loops after 65 535
+// turns of all of them, and a thread has one tile after the other.
+#if MESH_VERTICES > 42
+const uint VERTICES_AT_ONCE = 16u, TRIANGLES_AT_ONCE = 8u;
+#else
+const uint VERTICES_AT_ONCE = 1u, TRIANGLES_AT_ONCE = 1u;
+#endif
 
 shared vec3 vertices[MESH_VERTICES];
 shared uint eye_outside;
@@ -24,13 +33,13 @@ Triangle read_triangle(uint triangle)
     return read;
 }
 
-// Takes the mesh of a light to view space; false, and nothing is taken, where the light is of another kind. All threads of a workgroup come
+// Takes the mesh of a light to view space; false, and nothing is taken, where the light has another mesh. All threads of a workgroup come
 // with the same light.
 bool load_mesh(uint light)
 {
     uint thread = gl_LocalInvocationIndex;
     MeshFrame frame = light_frames[light];
-    if (is_spot(frame) != (MESH == MESH_SPOT))
+    if (!has_mesh(frame))
         return false;
     if (thread == 0u) {
         eye_outside = 0u;
@@ -70,10 +79,13 @@ bool misses_tile(Tile tile, uint count)
 {
     vec4 nearest = vec4(-3e38);
     float size = 0.0;
-    for (uint vertex = 0u; vertex < count; ++vertex) {
-        nearest = max(nearest, tile_distances(vertices[vertex], tile));
-        size = max(size, size_in_tile(vertices[vertex], tile));
-    }
+    for (uint first = 0u; first < count; first += VERTICES_AT_ONCE)
+        [[unroll]] for (uint i = 0u; i < VERTICES_AT_ONCE; ++i) {
+            // The last vertex may come again, which changes nothing.
+            vec3 vertex = vertices[min(first + i, count - 1u)];
+            nearest = max(nearest, tile_distances(vertex, tile));
+            size = max(size, size_in_tile(vertex, tile));
+        }
     precise float slack = SHELL_ROUNDING * size;
     return min(min(nearest.x, nearest.y), min(nearest.z, nearest.w)) < -slack;
 }
@@ -84,10 +96,11 @@ uint range_in_tile(uvec2 at)
     Tile sides = tile_at(at);
     uint triangles = misses_tile(sides, MESH_VERTICES) ? 0u : MESH_TRIANGLES;
     uint range = start_of_shell();
-    for (uint triangle = 0u; triangle < triangles; ++triangle) {
-        vec2 depths = depths_in_tile(read_triangle(triangle), sides);
-        if (depths.x <= depths.y)
-            range = joined_ranges(range, range_of(depths));
-    }
+    for (uint first = 0u; first < triangles; first += TRIANGLES_AT_ONCE)
+        [[unroll]] for (uint i = 0u; i < TRIANGLES_AT_ONCE; ++i) {
+            vec2 depths = depths_in_tile(read_triangle(first + i), sides);
+            if (depths.x <= depths.y)
+                range = joined_ranges(range, range_of(depths));
+        }
     return range;
 }

@@ -4,9 +4,9 @@
 //             plane cuts them.
 // HARDWARE 0: two triangles over the tiles in which a triangle may be seen, whose pixels then ask; all tiles where it reaches beside the
 //             eye.
-// MESH says of which lights: points (MESH_SPHERE) or spots.
+// lib/mesh_of_light.glsl says of which lights.
 #version 460
-#include "lib/light_mesh.glsl"
+#include "lib/mesh_of_light.glsl"
 #include "lib/seen_tiles.glsl"
 
 layout(location = 0) flat out uint out_light;
@@ -56,5 +56,5 @@ void main()
         triangle.corners[corner] = placed_vertex(frame, mesh_vertices[FIRST_VERTEX + (word >> 10u * corner & 0x3FFu)]);
     out_light = light;
     out_corners = triangle.corners;
-    gl_Position = is_spot(frame) == (MESH == MESH_SPOT) ? place_of_vertex(triangle, vertex % VERTICES) : NOWHERE;
+    gl_Position = has_mesh(frame) ? place_of_vertex(triangle, vertex % VERTICES) : NOWHERE;
 }

@@ -40,6 +40,11 @@ fn cones_name(run: &Config) -> String {
     format!("cones-{}", names(&run.normal_cones))
 }
 
+/// What tells the meshes of a run from others, also beside numbers of other things.
+fn detail_name(run: &Config) -> String {
+    format!("mesh-{}", names(&run.mesh_detail))
+}
+
 /// What a resolution is called by.
 pub fn resolution_name([width, height]: [u32; 2]) -> String {
     format!("{width}x{height}")
@@ -305,17 +310,17 @@ pub static AXES: [Axis; 18] = [
     },
     Axis {
         name: "mesh_detail",
-        description: "How fine the meshes around point lights are, in vertices; `*` stands for any text.",
+        description: "How fine the meshes around point lights are; `*` stands for any text.",
         column: "mesh_detail",
         role: Role::Way,
         values: Values::Names,
         applies: Method::has_meshes,
         count: |config| config.mesh_detail.len(),
         split: |config| {
-            each(&config.mesh_detail, |level| Config { mesh_detail: vec![level], ..config.clone() })
+            each(&config.mesh_detail, |detail| Config { mesh_detail: vec![detail], ..config.clone() })
         },
-        called: |run| vec![names(&run.mesh_detail)],
-        label: |run, _| format!("mesh-{}", run.mesh_detail[0]),
+        called: |run| vec![names(&run.mesh_detail), detail_name(run)],
+        label: |run, _| detail_name(run),
     },
     Axis {
         name: "octree",

@@ -3,7 +3,6 @@
 use super::values::MAX_RESOLUTION;
 use super::{Assign, Choice, Config, Layer};
 use crate::assign::{Bounds, Clusters, Compaction, Conservative};
-use crate::geometry::SphereLevel;
 use crate::lights::Attenuation;
 use crate::methods::{KINDS, Kind, Size};
 use crate::shading::{Shading, ShadingPipeline};
@@ -140,7 +139,11 @@ pub(super) fn conservative(_: &mut SchemaGenerator) -> Schema {
 }
 
 pub(super) fn mesh_detail(_: &mut SchemaGenerator) -> Schema {
-    names_of(&SphereLevel::ALL)
+    one_or_several(&json_schema!({
+        "type": "string",
+        "pattern": r"^(12|42|162|642|auto-[0-9]+(\.[0-9]+)?)$",
+        "examples": ["12", "42", "162", "642", "auto-0.25"]
+    }))
 }
 
 pub(super) fn octree(_: &mut SchemaGenerator) -> Schema {

@@ -6,7 +6,7 @@ use super::{
     Assign, Choice, Exclude, ExrFrames, ExrLayout, FrameRange, Runs, SceneEntry, Scopes, Test, exclude,
     scenes, schema,
 };
-use crate::assign::{Bounds, Clusters, Compaction, Conservative, ListStore, Marking};
+use crate::assign::{Bounds, Clusters, Compaction, Conservative, ListStore, Marking, MeshDetail};
 use crate::culling::Culling;
 use crate::geometry::{DisplacedVolume, NormalCones, SliceLaw, SphereLevel, VolumeTest};
 use crate::lights::{
@@ -308,11 +308,11 @@ settings! {
         write(serialize_with = "ser::one_or_several")
         check(values::check_ways)
     }
-    /// How fine the meshes are that raster methods put around point lights, in vertices: `12` (an icosahedron), `42` (its triangles
-    /// divided in four, as in the paper), `162` or `642`. A finer mesh reaches less far beyond its light, so that fewer lights are listed
-    /// in vain, and has four times the triangles. Of several, with commas between, each is a run of every such method.
-    mesh_detail: Vec<SphereLevel> = vec![SphereLevel::V42], Run {
-        arg(long, value_name = "LIST", value_delimiter = ',')
+    /// How many vertices the meshes have that raster methods put around point lights: `12`, `42`, `162`, `642`, or `auto-PART` (of each
+    /// light the fewest with which the mesh reaches beyond it by at most PART of a tile's width as seen from the eye). Of several, with
+    /// commas between, each is a run of every such method.
+    mesh_detail: Vec<MeshDetail> = vec![MeshDetail::Level(SphereLevel::V42)], Run {
+        arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::mesh_detail)
         serde(default, deserialize_with = "de::ways")
         schemars(schema_with = "schema::mesh_detail")
         write(serialize_with = "ser::one_or_several")

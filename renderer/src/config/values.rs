@@ -2,7 +2,7 @@
 //! here and serves flags and files alike.
 
 use super::{Choice, Lighting, SceneEntry, scenes};
-use crate::assign::ListStore;
+use crate::assign::{ListStore, MeshDetail};
 use crate::geometry::NormalCones;
 use crate::lights::Attenuation;
 use crate::methods::{Method, OctreeWay};
@@ -45,6 +45,11 @@ pub(super) fn list_store(text: &str) -> Result<ListStore, String> {
 
 /// Reads into how many squares the faces of the cube of normal cones are divided.
 pub(super) fn normal_cones(text: &str) -> Result<NormalCones, String> {
+    text.parse()
+}
+
+/// Reads how fine meshes around lights are.
+pub(super) fn mesh_detail(text: &str) -> Result<MeshDetail, String> {
     text.parse()
 }
 

@@ -5,9 +5,10 @@
 //! ```
 
 use crate::Result;
+use crate::assign::MeshDetail;
 use crate::buffers::BufferName;
 use crate::clustering::{FRAME_SLOTS, SharedBuffer, make_buffer};
-use crate::geometry::{self, LightMesh, LightVolume, MeshKind, SphereLevel, SphericalSector, VolumeKind};
+use crate::geometry::{self, LightMesh, LightVolume, SphericalSector, VolumeKind};
 use crate::gpu_interface::{LightData, MeshFrame, SpotData};
 use crate::lights::{ConeFalloff, FrameLights, Light, LightTally};
 use crate::pass::BufferCopy;
@@ -55,10 +56,8 @@ struct Meshes {
 pub(super) struct Room {
     /// Most lights, and whether some have cones.
     pub tally: LightTally,
-    /// Whether the meshes around them are rasterised.
-    pub meshes: bool,
-    /// How fine those around points are.
-    pub mesh_detail: SphereLevel,
+    /// How fine the meshes around them are, where these are rasterised.
+    pub meshes: Option<MeshDetail>,
 }
 
 impl Room {
@@ -69,7 +68,7 @@ impl Room {
         [
             of(true, size_of::<LightData>()),
             of(self.tally.spots, size_of::<SpotData>()),
-            of(self.meshes, size_of::<MeshFrame>()),
+            of(self.meshes.is_some(), size_of::<MeshFrame>()),
         ]
     }
 
@@ -80,9 +79,10 @@ impl Room {
 }
 
 impl Meshes {
-    /// The templates, and room for what places them.
-    fn new(context: &Arc<Context>, frames: u64, points: SphereLevel) -> Result<Self> {
-        let templates = MeshKind::rasterised(points).map(LightMesh::new);
+    /// The templates of all meshes of a detail, and room for what places them.
+    fn new(context: &Arc<Context>, detail: Option<MeshDetail>, frames: u64) -> Result<Self> {
+        let meshes = detail.map(|detail| detail.meshes()).unwrap_or_default();
+        let templates: Vec<_> = meshes.into_iter().map(LightMesh::new).collect();
         let vertices: Vec<[f32; 4]> = templates
             .iter()
             .flat_map(|mesh| &mesh.vertices)
@@ -91,7 +91,8 @@ impl Meshes {
         let word = |&[a, b, c]: &[u16; 3]| u32::from(a) | u32::from(b) << 10 | u32::from(c) << 20;
         let triangles: Vec<u32> = templates.iter().flat_map(|mesh| &mesh.triangles).map(word).collect();
         let written = |name: BufferName, bytes: &[u8]| {
-            let buffer = make_buffer(context, name, bytes.len() as u64, Memory::Upload)?;
+            let size = LEAST_BYTES.max(bytes.len() as u64);
+            let buffer = make_buffer(context, name, size, Memory::Upload)?;
             buffer.write(0, bytes);
             Ok::<_, crate::Error>(buffer)
         };
@@ -120,11 +121,11 @@ impl DeviceLights {
         Ok(Self {
             lights: make_buffer(context, BufferName::Lights, lights, Memory::Device)?,
             spots: make_buffer(context, BufferName::Spots, spots, Memory::Device)?,
-            meshes: Meshes::new(context, frames, room.mesh_detail)?,
+            meshes: Meshes::new(context, room.meshes, frames)?,
             staging: [staging()?, staging()?],
             data: Vec::with_capacity(room.count(true)),
             cones: Vec::with_capacity(room.count(room.tally.spots)),
-            frames: Vec::with_capacity(room.count(room.meshes)),
+            frames: Vec::with_capacity(room.count(room.meshes.is_some())),
             room,
             there: None,
             changed: false,
@@ -164,7 +165,7 @@ impl DeviceLights {
             self.cones.extend(lights.list.iter().map(spot_data));
             self.staging[slot].spots.write(0, &self.cones);
         }
-        if self.room.meshes {
+        if self.room.meshes.is_some() {
             self.frames.clear();
             self.frames.extend(lights.list.iter().map(|light| mesh_frame(light, origin)));
             self.staging[slot].frames.write(0, &self.frames);
@@ -197,8 +198,7 @@ fn mesh_frame(light: &Light, origin: DVec3) -> MeshFrame {
         None => LightVolume::sphere(light.place() - origin, light.r1.into()),
         Some(sector) => LightVolume::sector(SphericalSector { apex: sector.apex - origin, ..sector }),
     };
-    // Meshes around points differ in their templates alone.
-    (&geometry::MeshFrame::of(&volume, SphereLevel::default()).1).into()
+    (&geometry::MeshFrame::of(&volume)).into()
 }
 
 /// A light as shaders read it in a frame with this origin.

@@ -125,7 +125,7 @@ impl Engine {
             pipeline: run.pipeline[0],
             resolution: run.resolution,
             timed: timed(run.scopes),
-            lights: DeviceLights::new(&session.context, chosen.room(run, &mode))?,
+            lights: DeviceLights::new(&session.context, chosen.room(&mode))?,
             pipelines: session.store.pipelines(&chosen.variant(run, &mode))?,
             largest,
             sizes,
@@ -164,8 +164,7 @@ impl Engine {
         let largest = chosen.largest(largest, session.scene.models());
         let clusterings = chosen.method.kind().sharing.clusterings(session.targets.len()) as u64;
         let slots = FRAME_SLOTS as u64;
-        clusterings * chosen.sizes(run, largest, mode).bytes(slots)
-            + DeviceLights::bytes(chosen.room(run, mode))
+        clusterings * chosen.sizes(run, largest, mode).bytes(slots) + DeviceLights::bytes(chosen.room(mode))
     }
 
     /// What each structure takes, and what frames need of it by their counts.

@@ -3,8 +3,8 @@
 use super::FramePlan;
 use super::lights::Room;
 use crate::assign::{
-    Assigner, ClusterBounds, Clusters, Compaction, ListStore, NODES_PER_CLUSTER, check_links, check_one_pass,
-    check_sorted_slices, check_sorted_tiles,
+    Assigner, ClusterBounds, Clusters, Compaction, ListStore, MeshDetail, NODES_PER_CLUSTER, check_links,
+    check_one_pass, check_sorted_slices, check_sorted_tiles,
 };
 use crate::buffers::ClusteringSizes;
 use crate::config::Config;
@@ -92,6 +92,7 @@ pub(super) struct Chosen {
     sorted_tile: u32,
     slices: SliceLaw,
     test: VolumeTest,
+    mesh_detail: MeshDetail,
 }
 
 impl Chosen {
@@ -124,6 +125,7 @@ impl Chosen {
             },
             slices: run.slices[0].of(&method),
             test: run.test[0].of(&method),
+            mesh_detail: run.mesh_detail[0],
         }
     }
 
@@ -167,8 +169,8 @@ impl Chosen {
     }
 
     /// What is kept of lights.
-    pub fn room(&self, run: &Config, mode: &Mode) -> Room {
-        Room { tally: mode.lights, meshes: self.assigner.rasterises(), mesh_detail: run.mesh_detail[0] }
+    pub fn room(&self, mode: &Mode) -> Room {
+        Room { tally: mode.lights, meshes: self.assigner.rasterises().then_some(self.mesh_detail) }
     }
 
     /// What is asked of cones; nothing where no light has one.
@@ -203,7 +205,7 @@ impl Chosen {
             marking: run.marking,
             assigner: self.assigner,
             conservative: run.conservative[0],
-            mesh_detail: run.mesh_detail[0],
+            mesh_detail: self.mesh_detail,
             test: VolumeTest { cone: self.cones(mode), ..self.test },
             lights_at_once: lights_at_once(self.method.has_lists(), mode.lights.count),
             shading: run.shading[0],

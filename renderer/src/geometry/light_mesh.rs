@@ -4,29 +4,26 @@
 //! serves all meshes.
 //!
 //! ```text
-//! LightVolume, SphereLevel ─> MeshFrame::of ─┬─ kind ─> LightMesh::new ─ template (x, y, z, t) ─┐
-//!                                            └─ frame (origin, X, Y, Z, T) ─────────────────────┴─> origin + x X + y Y + z Z + t T
+//! MeshKind (a SphereLevel, or spots) ─ LightMesh::new ─> template (x, y, z, t) ──────┐
+//! LightVolume ─ MeshFrame::of ─────────────────────────> frame (origin, X, Y, Z, T) ─┴─> origin + x X + y Y + z Z + t T
 //! ```
 
 use super::{LightVolume, SphericalSector};
-use crate::nearest;
 use glam::{DVec3, DVec4};
 use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_8, TAU};
 use std::fmt;
-use std::str::FromStr;
 
 /// Vertices of the ring of a spot light's mesh.
 const RING: u16 = 8;
 
 /// How fine the mesh around a sphere is: an icosahedron whose triangles are divided in four, some times over. Its name is the number of
 /// its vertices.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SphereLevel {
     /// 12 vertices: undivided.
     V12,
     /// 42 vertices: the paper's.
-    #[default]
     V42,
     /// 162 vertices.
     V162,
@@ -39,7 +36,7 @@ impl SphereLevel {
     pub const ALL: [Self; 4] = [Self::V12, Self::V42, Self::V162, Self::V642];
 
     /// How often the triangles are divided.
-    const fn divisions(self) -> u32 {
+    pub const fn divisions(self) -> u32 {
         self as u32
     }
 
@@ -63,26 +60,22 @@ impl SphereLevel {
         }
     }
 
+    /// How far the vertices lie beyond the sphere that the mesh holds, in its radii.
+    pub const fn beyond(self) -> f64 {
+        self.circumradius() - 1.0
+    }
+
     /// The coarsest level at which the mesh of a sphere reaches beyond it by `allowed` at most, as seen from `distance` metres, in
     /// tangents: a part of a tile's width, as a rule. The finest where none does.
     pub fn of_detail(radius: f64, distance: f64, allowed: f64) -> Self {
-        let beyond = |level: &Self| (level.circumradius() - 1.0) * radius <= allowed * distance;
-        Self::ALL.into_iter().find(beyond).unwrap_or(Self::V642)
+        let suffices = |level: &Self| level.beyond() * radius <= allowed * distance;
+        Self::ALL.into_iter().find(suffices).unwrap_or(Self::V642)
     }
 }
 
 impl fmt::Display for SphereLevel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.vertices().fmt(f)
-    }
-}
-
-impl FromStr for SphereLevel {
-    type Err = String;
-
-    /// Reads what [`fmt::Display`] writes.
-    fn from_str(text: &str) -> Result<Self, String> {
-        nearest::named(text, &Self::ALL, "number of vertices")
     }
 }
 
@@ -93,13 +86,6 @@ pub enum MeshKind {
     Sphere(SphereLevel),
     /// That of spot lights.
     Spot,
-}
-
-impl MeshKind {
-    /// The meshes that are rasterised, of points, then of spots; devices have their templates in this order.
-    pub const fn rasterised(points: SphereLevel) -> [Self; 2] {
-        [Self::Sphere(points), Self::Spot]
-    }
 }
 
 /// A convex mesh, as a template for many lights.
@@ -200,13 +186,13 @@ pub struct MeshFrame {
 }
 
 impl MeshFrame {
-    /// The frame of a light's volume and the mesh it is for; of a sphere, that of a `level`.
-    pub fn of(volume: &LightVolume, level: SphereLevel) -> (MeshKind, Self) {
+    /// The frame of a light's volume: of the mesh of spots where it is that of one, else of any around a sphere.
+    pub fn of(volume: &LightVolume) -> Self {
         match &volume.sector {
-            Some(sector) => (MeshKind::Spot, Self::of_sector(sector)),
+            Some(sector) => Self::of_sector(sector),
             None => {
                 let axes = DVec3::AXES.map(|axis| axis * volume.radius);
-                (MeshKind::Sphere(level), Self { origin: volume.centre, axes, tip: DVec3::ZERO })
+                Self { origin: volume.centre, axes, tip: DVec3::ZERO }
             }
         }
     }

@@ -49,12 +49,25 @@ pub fn mesh_frames(r: &mut Recorder, frame: &Frame, _lights: Lights, visible: Vi
 
 /// The shells of all lights.
 pub fn shells(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
-    for (stage, shells) in SHELLS.into_iter().zip(&frame.pipelines.clustered().raster().shells) {
-        r.scope(stage, |r| shells_of_kind(r, frame, visible, shells));
+    let raster = frame.pipelines.clustered().raster();
+    each_kind(r, SHELLS, raster.by_kind(&raster.shells), |r, shells| {
+        shells_of_mesh(r, frame, visible, shells)
+    });
+}
+
+/// What is done with the meshes of points and with those of spots, in a stage each.
+fn each_kind<T>(
+    r: &mut Recorder,
+    stages: [&'static str; 2],
+    meshes: [&[T]; 2],
+    mut of_mesh: impl FnMut(&mut Recorder, &T),
+) {
+    for (stage, meshes) in stages.into_iter().zip(meshes).filter(|(_, meshes)| !meshes.is_empty()) {
+        r.scope(stage, |r| meshes.iter().for_each(|mesh| of_mesh(r, mesh)));
     }
 }
 
-fn shells_of_kind(r: &mut Recorder, frame: &Frame, visible: VisibleClusters, shells: &Shells) {
+fn shells_of_mesh(r: &mut Recorder, frame: &Frame, visible: VisibleClusters, shells: &Shells) {
     let [columns, rows, _] = frame.clusterings[visible.clustering].dimensions;
     let lights = frame.lights.count;
     let declared = (set(&[B::LightFrames]), set(&[B::ShellRanges]));
@@ -89,9 +102,10 @@ pub fn count_lights(r: &mut Recorder, frame: &Frame, visible: VisibleClusters) {
         true => (BufferSet::EMPTY, set(&[B::State, B::ListOffsets, B::LightIndices, B::Counters])),
         false => (set(&[B::State]), set(&[B::LightMasks, B::ListLengths, B::Counters])),
     };
-    for (stage, [meets, _]) in stages.into_iter().zip(&frame.pipelines.clustered().meet) {
-        r.scope(stage, |r| meet(r, frame, visible, (meets, DISPATCH_MEET), lists));
-    }
+    let pipelines = frame.pipelines.clustered();
+    each_kind(r, stages, pipelines.raster().by_kind(&pipelines.meet), |r, [meets, _]| {
+        meet(r, frame, visible, (meets, DISPATCH_MEET), lists);
+    });
     if !is_linked {
         r.scope("count_lights", |r| count_bits(r, frame, visible));
     }

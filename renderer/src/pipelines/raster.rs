@@ -13,13 +13,22 @@ use std::sync::Arc;
 pub struct RasterPipelines {
     /// Places the meshes in clustering space.
     pub frames: Arc<Pipeline>,
-    /// The slices of the meshes of each kind, where they are kept.
+    /// The slices of each mesh of lights, where they are kept: those of points, then that of spots where there are such.
     pub shells: Vec<Shells>,
+    /// Whether there are spots.
+    spots: bool,
     /// Sorts lists that are linked, where that is wanted.
     pub sort_nodes: Option<Arc<Pipeline>>,
 }
 
-/// Finds the slices of meshes of one kind.
+impl RasterPipelines {
+    /// Of pipelines of meshes, of which spots have the last, those of points and those of spots.
+    pub fn by_kind<'a, T>(&self, pipelines: &'a [T]) -> [&'a [T]; 2] {
+        <[_; 2]>::from(pipelines.split_at(pipelines.len() - usize::from(self.spots)))
+    }
+}
+
+/// Finds the slices of one mesh around lights.
 pub enum Shells {
     /// By a kernel over lights, tiles and triangles.
     Computed(Arc<Pipeline>),
@@ -34,8 +43,9 @@ pub enum Shells {
     },
 }
 
-/// The meshes of one kind, as shaders are told of them.
+/// The meshes around lights that have one template, as shaders are told of them.
 struct Meshes {
+    kind: MeshKind,
     defines: Defines,
     triangles: u32,
 }
@@ -48,17 +58,22 @@ impl PipelineStore {
         }
         let frames = self.compute("raster/mesh_frames.comp", &variant.list_defines())?;
         let keeps_shells = variant.assigner == Assigner::Raster;
-        let kinds = if keeps_shells { meshes(variant) } else { vec![] };
-        let shells = kinds.iter().map(|meshes| self.shells(variant, meshes)).collect::<Result<_>>()?;
+        let all = if keeps_shells { meshes(variant) } else { vec![] };
+        let shells = all.iter().map(|meshes| self.shells(variant, meshes)).collect::<Result<_>>()?;
         let sorts = variant.lists.links().is_some_and(|links| links.sorted);
         let sort_nodes =
             sorts.then(|| self.compute("raster/sort_nodes.comp", &variant.list_defines())).transpose()?;
-        Ok(Some(RasterPipelines { frames, shells, sort_nodes }))
+        Ok(Some(RasterPipelines { frames, shells, spots: variant.spots, sort_nodes }))
     }
 
-    /// What takes the lights of meshes to lists: counts or links them, and writes lists.
+    /// What takes the lights of meshes to lists: counts or links them, and writes lists. Shells, where they are kept, are the same
+    /// whatever the level of points.
     pub(super) fn fills(&mut self, variant: &Variant, path: &str) -> Result<Vec<[Arc<Pipeline>; 2]>> {
-        meshes(variant).iter().map(|kind| twice(self, path, &kind.defines, "WRITE_LISTS")).collect()
+        let mut meshes = meshes(variant);
+        if variant.assigner == Assigner::Raster {
+            meshes.dedup_by_key(|meshes| meshes.kind == MeshKind::Spot);
+        }
+        meshes.iter().map(|kind| twice(self, path, &kind.defines, "WRITE_LISTS")).collect()
     }
 
     fn shells(&mut self, variant: &Variant, meshes: &Meshes) -> Result<Shells> {
@@ -97,18 +112,31 @@ impl PipelineStore {
     }
 }
 
-/// Meshes of points, then of spots where there are such.
+/// Meshes of points, the coarsest first, then of spots where there are such.
 fn meshes(variant: &Variant) -> Vec<Meshes> {
     let (mut first_vertex, mut first_triangle) = (0, 0);
-    let kinds = ["MESH_SPHERE", "MESH_SPOT"].into_iter().zip(MeshKind::rasterised(variant.mesh_detail));
-    let of = |(name, kind)| {
+    let of = |kind| {
         let LightMesh { vertices, triangles } = LightMesh::new(kind);
-        let defines = variant.list_defines().with("MESH", name).with("MESH_VERTICES", vertices.len());
+        let defines = with_lights_of(kind, variant).with("MESH_VERTICES", vertices.len());
         let defines = defines.with("MESH_TRIANGLES", triangles.len());
         let defines = defines.with("FIRST_VERTEX", first_vertex).with("FIRST_TRIANGLE", first_triangle);
         first_vertex += vertices.len();
         first_triangle += triangles.len();
-        Meshes { defines, triangles: triangles.len() as u32 }
+        Meshes { kind, defines, triangles: triangles.len() as u32 }
     };
-    kinds.take(if variant.spots { 2 } else { 1 }).map(of).collect()
+    let kinds = variant.mesh_detail.meshes().into_iter();
+    kinds.filter(|kind| variant.spots || *kind != MeshKind::Spot).map(of).collect()
+}
+
+/// The defines of lists, with what tells the lights that have a mesh.
+fn with_lights_of(kind: MeshKind, variant: &Variant) -> Defines {
+    let defines = variant.list_defines();
+    match (kind, variant.mesh_detail.glsl_beyond()) {
+        (MeshKind::Spot, _) => defines.with("MESH", "MESH_SPOT"),
+        (MeshKind::Sphere(_), None) => defines.with("MESH", "MESH_SPHERE"),
+        (MeshKind::Sphere(level), Some(beyond)) => defines
+            .with("MESH", "MESH_SPHERE")
+            .with("MESH_LEVEL", level.divisions())
+            .with("MESH_BEYOND", beyond),
+    }
 }

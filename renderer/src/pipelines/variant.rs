@@ -1,11 +1,13 @@
 //! A variant as data: what shaders are specialised for, and the defines that follow.
 
 use super::Output;
-use crate::assign::{Assigner, ClusterBounds, Clusters, Compaction, Conservative, ListStore, Marking};
+use crate::assign::{
+    Assigner, ClusterBounds, Clusters, Compaction, Conservative, ListStore, Marking, MeshDetail,
+};
 use crate::culling::Culling;
 use crate::draw_list::SurfaceKind;
 use crate::geometry::{
-    CellShape, ConeTest, NormalCones, Separators, Sharing, SliceLaw, SphereLevel, SphereTest, VolumeTest,
+    CellShape, ConeTest, NormalCones, Separators, Sharing, SliceLaw, SphereTest, VolumeTest,
 };
 use crate::lights::Attenuation;
 use crate::material::MaterialModel;
@@ -50,8 +52,8 @@ pub struct Variant {
     pub assigner: Assigner,
     /// How meshes around lights are rasterised, where these are kept.
     pub conservative: Conservative,
-    /// How fine the meshes around points are that are rasterised.
-    pub mesh_detail: SphereLevel,
+    /// How fine they are.
+    pub mesh_detail: MeshDetail,
     /// What decides who is on them; no cones are asked where there are none.
     pub test: VolumeTest,
     /// Lights that shading evaluates in one turn of its loop.

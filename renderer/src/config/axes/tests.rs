@@ -4,7 +4,6 @@ use super::*;
 use crate::assign::{Compaction, Conservative, ListStore};
 use crate::config::{Assign, Exclude};
 use crate::config::{Choice, Lighting};
-use crate::geometry::SphereLevel;
 use crate::methods::OctreeWay;
 use crate::shading::{Shading, ShadingPipeline};
 use std::collections::BTreeSet;
@@ -30,7 +29,7 @@ fn everything() -> Config {
         lists: vec![ListStore::Offsets, ListStore::Fixed(8)],
         compaction: vec![Compaction::Ranks, Compaction::Atomic],
         conservative: vec![Conservative::Software, Conservative::Compute],
-        mesh_detail: vec![SphereLevel::V12, SphereLevel::V42],
+        mesh_detail: ["12", "auto-0.25"].map(|name| name.parse().unwrap()).to_vec(),
         octree: vec![OctreeWay::Rebuild, OctreeWay::Seed(7)],
         ..Config::default()
     }
@@ -44,10 +43,10 @@ fn runs() -> Vec<Config> {
 fn the_product_has_every_combination_that_differs_once() {
     // Of three tests, Persp has its own under two names and Ortho has not, and so it is of slices, which Ortho has none of;
     // the third method knows no ways of assignment, the fourth but two of making octrees, and the fifth neither ways of assignment nor
-    // tests but two of rasterising two meshes. All are shaded in two ways by two pipelines.
+    // tests but two of rasterising, with two meshes. All are shaded in two ways by two pipelines.
     assert_eq!(
         runs().len(),
-        2 * 2 * 2 * 2 * 2 * ((2 * 2 * 2 * 2 * 2 + 2 * 3 * 2 * 2) * 2 * 2 * 2 + 1 + 2 + 2 * 2 * 2 * 3 * 2 * 2)
+        2 * 2 * 2 * 2 * 2 * ((2 * 2 * 2 * 2 * 2 + 2 * 3 * 2 * 2) * 2 * 2 * 2 + 1 + 2 + 2 * 2 * 3 * 2 * 2 * 2)
     );
     for run in runs() {
         assert_eq!((run.by_scene(), run.cases()), (vec![run.clone()], vec![run]));

@@ -54,8 +54,7 @@ impl Case {
             Some(sector) => LightVolume::sector(sector.grown(grown(sector.range)).unwrap()),
             None => LightVolume::sphere(volume.centre, volume.radius + grown(volume.radius)),
         };
-        let (kind, frame) = MeshFrame::of(&volume, SphereLevel::V42);
-        (&self.meshes[usize::from(kind == MeshKind::Spot)], frame)
+        (&self.meshes[usize::from(volume.sector.is_some())], MeshFrame::of(&volume))
     }
 
     /// Vertices as the device has them.
@@ -257,7 +256,7 @@ fn an_eye_on_the_side_of_a_mesh_is_inside() {
         let normal = (b - a).cross(c - a).normalize();
         for radius in [0.37, 5.1, 77.0] {
             let around = LightVolume::sphere(-normal * radius, radius);
-            let frame = (&MeshFrame::of(&around, SphereLevel::V42).1).into();
+            let frame = (&MeshFrame::of(&around)).into();
             let vertices: Vec<Vec3> =
                 mesh.vertices.iter().map(|vertex| placed(&frame, vertex.as_vec4())).collect();
             assert!(

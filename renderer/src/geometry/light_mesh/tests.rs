@@ -88,7 +88,8 @@ proptest! {
     fn meshes_hold_their_lights(sector in sector(), level in 0..3usize, parts in prop::array::uniform3(0.0..=1.0f64)) {
         let level = SphereLevel::ALL[level];
         for volume in [LightVolume::sector(sector), LightVolume::sphere(sector.apex, sector.range)] {
-            let (kind, frame) = MeshFrame::of(&volume, level);
+            let frame = MeshFrame::of(&volume);
+            let kind = if volume.sector.is_some() { MeshKind::Spot } else { MeshKind::Sphere(level) };
             let mesh = LightMesh::new(kind);
             let inside = match &volume.sector {
                 Some(sector) => point_of(sector, [0.5, 0.0, 0.0]),

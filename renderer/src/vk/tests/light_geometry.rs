@@ -230,7 +230,7 @@ fn shells_are_made_as_on_the_host() {
                 MeshKind::Spot => LightVolume::sector(*sector),
                 MeshKind::Sphere(_) => LightVolume::sphere(sector.apex, sector.range),
             };
-            gpu_interface::MeshFrame::from(&MeshFrame::of(&volume, SphereLevel::V42).1)
+            gpu_interface::MeshFrame::from(&MeshFrame::of(&volume))
         };
         let frames: Vec<_> = sectors.iter().map(frame).collect();
         let on_host: Vec<u32> =
