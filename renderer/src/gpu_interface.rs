@@ -38,6 +38,8 @@ pub const TILE_WORKGROUP: u32 = 64;
 pub const CULL_WORKGROUP: u32 = 64;
 /// Packets of lights along x of a dispatch; more go along y.
 pub const PACKET_ROW: u32 = 1 << 15;
+/// Tiles that a workgroup takes of those of a light's mesh, at most.
+pub const MESH_TILES: u32 = 32 * ASSIGN_WORKGROUP;
 /// Lists along x of a dispatch with a workgroup a list; more go along y.
 pub const LIST_ROW: u32 = 1 << 15;
 /// Blocks of clusters along x and y, at most; along z there are up to 32, a bit each.
@@ -95,7 +97,7 @@ pub const MEASUREMENT_WORDS: u64 = 4096;
 /// How many 64-bit counters the atemporal run has: as many as [`DeviceCounts`] has fields.
 pub const COUNTER_COUNT: usize = DeviceCounts::NAMES.len();
 
-const CONSTANTS: [(&str, u32); 33] = [
+const CONSTANTS: [(&str, u32); 34] = [
     ("SET_BUFFERS", SET_BUFFERS),
     ("SET_MATERIAL", SET_MATERIAL),
     ("SET_TARGETS", SET_TARGETS),
@@ -103,6 +105,7 @@ const CONSTANTS: [(&str, u32); 33] = [
     ("SCAN_WORKGROUP", SCAN_WORKGROUP),
     ("SCAN_BLOCK", SCAN_BLOCK),
     ("ASSIGN_WORKGROUP", ASSIGN_WORKGROUP),
+    ("MESH_TILES", MESH_TILES),
     ("LIGHT_BLOCK", LIGHT_BLOCK),
     ("TILE_WORKGROUP", TILE_WORKGROUP),
     ("PACKET_ROW", PACKET_ROW),

@@ -70,7 +70,7 @@ void publish_lists(uint lights, uint visible)
 #elif ASSIGN == ASSIGN_RECTANGLES
     publish_meeting(DispatchSize((lights + ASSIGN_WORKGROUP - 1u) / ASSIGN_WORKGROUP, rectangle_split(visible), 1u), masked);
 #elif ASSIGN == ASSIGN_RASTER || ASSIGN == ASSIGN_RASTER_COUNT
-    publish_meeting(DispatchSize(lights, 1u, 1u), masked);
+    publish_meeting(DispatchSize(lights, (grid.dimensions.x * grid.dimensions.y + MESH_TILES - 1u) / MESH_TILES, 1u), masked);
 #endif
 }
 

@@ -1,7 +1,8 @@
 // The slices in which each light's mesh lies, tile by tile (Örtegren and Persson section 4.3), without rasterisation: a workgroup takes a
-// light, and each of its threads all triangles of the mesh with one tile after the other.
+// light (x) and a part of its tiles (y), and each of its threads all triangles of the mesh with one tile after the other.
 #version 460
 #include "lib/mesh_in_tiles.glsl"
+#include "lib/tile_part.glsl"
 
 layout(local_size_x = ASSIGN_WORKGROUP) in;
 
@@ -12,13 +13,13 @@ void main()
         return;
     uint tiles = grid.dimensions.x * grid.dimensions.y;
     TileRange seen = tiles_of_mesh();
-    for (uint tile = gl_LocalInvocationIndex; tile < tiles; tile += ASSIGN_WORKGROUP) {
+    for (uint tile = first_tile(); tile < end_of_tiles(tiles); tile += ASSIGN_WORKGROUP) {
         uvec2 at = uvec2(tile % grid.dimensions.x, tile / grid.dimensions.x);
         if (any(lessThan(at, seen.first)) || any(greaterThanEqual(at, seen.end)))
             shell_ranges[light * tiles + tile] = EMPTY_RANGE;
     }
     uvec2 size = seen.end - seen.first;
-    for (uint place = gl_LocalInvocationIndex; place < size.x * size.y; place += ASSIGN_WORKGROUP) {
+    for (uint place = first_tile(); place < end_of_tiles(size.x * size.y); place += ASSIGN_WORKGROUP) {
         uvec2 at = seen.first + uvec2(place % size.x, place / size.x);
         shell_ranges[light * tiles + at.y * grid.dimensions.x + at.x] = range_in_tile(at);
     }

@@ -334,7 +334,7 @@ impl ClusteringSizes {
         let boxes = self.boxes().div_ceil(u64::from(ASSIGN_WORKGROUP));
         for (what, workgroups, most) in [
             (format!("{lights} lights"), packets, most_x.min(most_y)),
-            (format!("{lights} lights that are rasterised"), self.meshes(), most_y),
+            (format!("{lights} lights that are rasterised"), self.meshes(), most_x),
             (format!("{visible} visible clusters"), groups, most_x),
             (format!("{} clusters", self.clusters), blocks.max(boxes), most_x),
             (

@@ -18,7 +18,7 @@ use super::inputs::Frame;
 use super::lights;
 use crate::assign::{Assigner, NodeLayout};
 use crate::buffers::{BufferName as B, BufferSet, set};
-use crate::gpu_interface::{ASSIGN_WORKGROUP, DISPATCH_LISTS, DISPATCH_MEET};
+use crate::gpu_interface::{ASSIGN_WORKGROUP, DISPATCH_LISTS, DISPATCH_MEET, MESH_TILES};
 use crate::layouts::Pipeline;
 use crate::pass::{Dispatch, Draw, Recorder, Size};
 use crate::pipelines::Shells;
@@ -73,7 +73,8 @@ fn shells_of_mesh(r: &mut Recorder, frame: &Frame, visible: VisibleClusters, she
     let declared = (set(&[B::LightFrames]), set(&[B::ShellRanges]));
     match shells {
         Shells::Computed(pipeline) => {
-            run(r, frame, visible, (pipeline, Size::Workgroups(lights, 1)), declared);
+            let size = Size::Workgroups(lights, (columns * rows).div_ceil(MESH_TILES));
+            run(r, frame, visible, (pipeline, size), declared);
         }
         Shells::Drawn { start, draw, vertices } => {
             run(r, frame, visible, (start, Size::Workgroups(lights, 1)), declared);
