@@ -18,6 +18,9 @@ const REST: (&str, Color) = ("all else of assignment", "grey");
 /// Far plane, slices, and depth of the second plane, by which the paper draws its laws.
 const DRAWN: (f64, f64, f64) = (3000.0, 64.0, 200.0);
 
+/// The grid that the paper compares with tiles, by exponential slices.
+const CLUSTERED: [u32; 3] = [24, 12, 128];
+
 /// All, in the paper's order.
 ///
 /// # Errors
@@ -192,18 +195,24 @@ fn against_tiles(set: &ResultSet) -> Result<Vec<Figure>> {
         title: "Lights a pixel, clustered against tiled",
         caption: "Raster methods list spots by their shape, tiles by the spheres around them and by the least and greatest depth; by one \
                   scale. Figures 5.9 to 5.11: of both kinds of lights, points alone, spots alone.",
-        missing: "needs rendered frames of a raster method and of tiles (tiled-16): replay with --exr",
+        missing: "needs rendered frames of raster-24-12-128-e and of tiles (tiled-16): replay with --exr",
     };
     let mut drawn = vec![];
     for setting in set.settings_once() {
         let way = Default::default();
         let is_of = |run: &&Run| run.setting.by(&way) == setting.by(&way);
         let is_tiled = |run: &&Run| run.method.to_string().starts_with("tiled-");
-        let Some(tiled) = set.runs.iter().filter(is_of).find(is_tiled) else { continue };
-        let mut runs: Vec<(String, &Run)> = vec![(tiled.method.to_string(), tiled)];
-        let raster = set.runs.iter().filter(is_of).filter(|run| super::evaluation::measures(run.method));
-        runs.extend(raster.map(|run| (run.method.to_string(), run)));
-        runs.dedup_by(|a, b| a.0 == b.0);
+        // By ascending lights.
+        let Some(tiled) = set.runs.iter().rev().filter(is_of).find(is_tiled) else { continue };
+        let is_pair = |run: &&Run| {
+            let method = run.method.to_string();
+            run.lighting == tiled.lighting
+                && run.grid == Some(CLUSTERED)
+                && method.starts_with("raster-")
+                && method.ends_with("-e")
+        };
+        let Some(raster) = set.runs.iter().filter(is_of).find(is_pair) else { continue };
+        let runs = [tiled, raster].map(|run| (run.method.to_string(), run));
         if let Some(chart) = gallery(&runs)? {
             drawn.push(Drawn { setting, chart, remark: String::new() });
         }
