@@ -15,12 +15,6 @@ layout(location = 1) flat out vec3 out_corners[3];
 // Beside the screen.
 const vec4 NOWHERE = vec4(2.0, 2.0, 0.0, 1.0);
 
-// The place on the screen of corners of tiles, counted from 0.
-vec4 place_of_tile(vec2 corner)
-{
-    return vec4(2.0 * corner / vec2(grid.dimensions.xy) - 1.0, 0.0, 1.0);
-}
-
 #if HARDWARE
 
 const uint VERTICES = 3u;
@@ -35,6 +29,12 @@ vec4 place_of_vertex(Triangle triangle, uint corner)
 #else
 
 const uint VERTICES = 6u;
+
+// The place on the screen of corners of tiles, counted from 0.
+vec4 place_of_tile(vec2 corner)
+{
+    return vec4(2.0 * corner / vec2(grid.dimensions.xy) - 1.0, 0.0, 1.0);
+}
 
 vec4 place_of_vertex(Triangle triangle, uint corner)
 {

@@ -288,3 +288,22 @@ fn device_shell(
     let groups = [frames.len() as u32, 1, 1];
     run(context, &words, &inputs.each_ref(), (groups, (tiles as usize) * frames.len()))
 }
+
+/// No device here need have the hardware for it.
+#[test]
+fn shaders_that_draw_meshes_compile_for_hardware_and_without() {
+    let generated = vec![("generated/gpu_interface.glsl".to_owned(), buffers())];
+    let library = ShaderLibrary::new(None, generated).unwrap().with_cache(None);
+    let words = ["0", "1"].map(|hardware| {
+        let defines = [
+            ("SPACE", "SPACE_PERSPECTIVE"),
+            ("SLICES", "SLICES_GEOMETRIC"),
+            ("MESH", "MESH_SPHERE"),
+            ("FIRST_VERTEX", "0"),
+            ("FIRST_TRIANGLE", "0"),
+            ("HARDWARE", hardware),
+        ];
+        library.compile("raster/shell.vert", &defines.map(|(name, value)| (name, value.to_owned()))).unwrap()
+    });
+    assert!(words[0] != words[1]);
+}
