@@ -12,6 +12,6 @@ const uint NO_NODE = 0xFFFFFFFFu;
 const uint NO_NODE = 0xFFFFFu;
 #endif
 
-// Behind a spot's number where points are sorted behind spots.
+// Set in the word of a point, so that lists that are sorted by it have spots first; without it the word is the light.
 const uint KIND_OF_POINT = 1u << 24;
 const uint LIGHT_OF_NODE = KIND_OF_POINT - 1u;

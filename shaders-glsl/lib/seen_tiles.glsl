@@ -11,7 +11,8 @@ struct TileRange {
 // All tiles where the point does not lie before the eye. What is left out is farther from it than what rounding may take.
 TileRange tiles_of(vec3 point)
 {
-    if (point.z >= 0.0)
+    // Nearer to the plane of the eye, tangents may have no end.
+    if (point.z > -1e-20)
         return TileRange(uvec2(0u), grid.dimensions.xy);
     const float TILE_ROUNDING = 1e-2;
     vec2 tangents = point.xy / -point.z;
