@@ -65,10 +65,11 @@ use sha2::{Digest, Sha256};
 use std::path::Path;
 
 /// The recordings in the binary, by name.
-const BUNDLED: [(&str, &str); 9] = [
+const BUNDLED: [(&str, &str); 10] = [
     ("bistro", include_str!("../../../recordings/bistro.json")),
     ("suntem", include_str!("../../../recordings/suntem.json")),
     ("hall", include_str!("../../../recordings/hall.json")),
+    ("aisle", include_str!("../../../recordings/aisle.json")),
     ("street", include_str!("../../../recordings/street.json")),
     ("city", include_str!("../../../recordings/city.json")),
     ("bistro-vive", include_str!("../../../recordings/bistro-vive.json")),

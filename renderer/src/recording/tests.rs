@@ -33,6 +33,7 @@ fn bundled_recordings_load_and_play() {
         ("bistro", 670, 1),
         ("suntem", 885, 1),
         ("hall", 1200, 1),
+        ("aisle", 91, 1),
         ("bistro-vive", 670, 2),
         ("bistro-mirror", 670, 3),
         ("suntem-vive", 885, 2),

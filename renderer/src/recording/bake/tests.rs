@@ -48,7 +48,7 @@ fn the_camera_passes_the_waypoints_at_their_times() {
 
 #[test]
 fn bundled_flights_are_baked_from_their_waypoints() {
-    for name in ["hall", "street", "city"] {
+    for name in ["hall", "aisle", "street", "city"] {
         let path = format!(concat!(env!("CARGO_MANIFEST_DIR"), "/../recordings/{}.waypoints.json"), name);
         let (baked, bundled) = (bake(path).unwrap(), load(name).unwrap());
         assert_eq!(baked.file().source, bundled.file().source);
