@@ -12,7 +12,7 @@ mod mesh_detail;
 mod sorted_tiles;
 mod store;
 
-pub use conservative::Conservative;
+pub use conservative::{Conservative, check_layered_slices};
 pub use mesh_detail::MeshDetail;
 pub use sorted_tiles::{check_sorted_slices, check_sorted_tiles, sorted_keys, sorted_threads};
 pub use store::{Compaction, Links, ListStore, MOST_CAPPED, MOST_FIXED, NODES_PER_CLUSTER, NodeLayout};

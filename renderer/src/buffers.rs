@@ -280,6 +280,11 @@ buffers! {
     ShellRanges = buffer("shell_ranges", Owner::Clustering)
         .storage("uint shell_ranges[]")
         .sized(|s| bytes::<u32>(s.shell_tiles()));
+    /// The slices of those tiles as layers of images had them, two tiles a word: 8 bits of the first slice, and 8 of how many lie behind
+    /// the last.
+    ShellTexels = buffer("shell_texels", Owner::Clustering)
+        .storage("uint shell_texels[]")
+        .sized(|s| bytes::<[u8; 2]>(s.shell_texels()));
     /// Boxes around the scene's models, in drawing order.
     ModelBoxes = buffer("model_boxes", Owner::Scene).storage("ModelBox model_boxes[]");
     /// What is drawn of the scene where the device culls.

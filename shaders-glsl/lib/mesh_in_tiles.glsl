@@ -21,7 +21,7 @@ const uint VERTICES_AT_ONCE = 1u, TRIANGLES_AT_ONCE = 1u;
 #endif
 
 shared vec3 vertices[MESH_VERTICES];
-shared uint eye_outside;
+shared uint eye_outside, before_eye;
 shared uint tiles_first[2], tiles_end[2];
 
 Triangle read_triangle(uint triangle)
@@ -43,6 +43,7 @@ bool load_mesh(uint light)
         return false;
     if (thread == 0u) {
         eye_outside = 0u;
+        before_eye = 0u;
         tiles_first = uint[](grid.dimensions.x, grid.dimensions.y);
         tiles_end = uint[](0u, 0u);
     }
@@ -56,15 +57,21 @@ bool load_mesh(uint light)
         }
     }
     barrier();
-    for (uint triangle = thread; triangle < MESH_TRIANGLES; triangle += ASSIGN_WORKGROUP)
-        if (!eye_is_behind(read_triangle(triangle)))
+    for (uint index = thread; index < MESH_TRIANGLES; index += ASSIGN_WORKGROUP) {
+        Triangle triangle = read_triangle(index);
+        if (!eye_is_behind(triangle))
             atomicOr(eye_outside, 1u);
+        if (!is_behind_eye(triangle))
+            atomicOr(before_eye, 1u);
+    }
     barrier();
     return true;
 }
 
 TileRange tiles_of_mesh()
 {
+    if (before_eye == 0u)
+        return TileRange(uvec2(0u), uvec2(0u));
     return TileRange(uvec2(tiles_first[0], tiles_first[1]), uvec2(tiles_end[0], tiles_end[1]));
 }
 

@@ -23,6 +23,15 @@ TileRange tiles_of(vec3 point)
     return TileRange(uvec2(first), uvec2(end));
 }
 
+// Whether a triangle lies so far behind the eye that no tile's sides have any of it between them, whatever rounding takes.
+bool is_behind_eye(Triangle triangle)
+{
+    vec3 a = triangle.corners[0], b = triangle.corners[1], c = triangle.corners[2];
+    vec2 widest = max(abs(grid.origin.xy), abs(grid.origin.xy + grid.cell.xy * vec2(grid.dimensions.xy)));
+    float size = max(max(size_of(a), size_of(b)), size_of(c)) * (1.0 + max(widest.x, widest.y));
+    return min(min(a.z, b.z), c.z) * min(grid.cell.x, grid.cell.y) > 8.0 * SHELL_ROUNDING * size;
+}
+
 // The tiles of both, and those between.
 TileRange joined_tiles(TileRange a, TileRange b)
 {

@@ -105,6 +105,7 @@ mod tests {
             octree: NO_OCTREE,
         },
         assigner: Assigner::Brute,
+        shell_layers: false,
         has_octree: false,
         counting: true,
         pixels: 64,

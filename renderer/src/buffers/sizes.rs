@@ -37,6 +37,8 @@ pub struct ClusteringSizes {
     pub capacities: Capacities,
     /// How the lists are built.
     pub assigner: Assigner,
+    /// Whether where meshes lie is drawn into layers of images.
+    pub shell_layers: bool,
     /// Whether lights are found by an octree.
     pub has_octree: bool,
     /// Whether the atemporal run's buffers are there.
@@ -103,6 +105,11 @@ impl ClusteringSizes {
     /// Tiles of all meshes, of which each has its slices, where these are kept.
     pub(super) fn shell_tiles(&self) -> u64 {
         if self.assigner == Assigner::Raster { self.meshes() * self.tiles } else { 0 }
+    }
+
+    /// Those tiles, where layers of images have them.
+    pub(super) fn shell_texels(&self) -> u64 {
+        if self.shell_layers { self.shell_tiles() } else { 0 }
     }
 
     /// Clusters of which each has its place where it is visible.

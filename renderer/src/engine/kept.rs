@@ -127,6 +127,7 @@ mod tests {
                 ..Capacities::default()
             },
             assigner: Assigner::Brute,
+            shell_layers: false,
             has_octree: false,
             counting: true,
             pixels: 1,

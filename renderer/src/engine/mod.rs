@@ -20,6 +20,7 @@ mod octree;
 mod plan;
 mod requirements;
 mod session;
+mod shell_layers;
 mod targets;
 pub(crate) mod workbench;
 
@@ -49,7 +50,7 @@ use crate::pass::{Recorder, ScopeTree, Timed};
 use crate::passes::{Draws, Frame};
 use crate::pipelines::Pipelines;
 use crate::shading::{Shading, ShadingPipeline};
-use crate::vk::Context;
+use crate::vk::{Context, Image};
 use crate::{Result, frame};
 use lights::DeviceLights;
 use mode::Chosen;
@@ -80,6 +81,8 @@ pub struct Engine {
     largest: LargestGrid,
     lights: DeviceLights,
     slice_planes: Vec<f32>,
+    /// Layers that meshes are drawn into, where they are.
+    shell_layers: Option<Image>,
     octree: Option<HostOctree>,
     clusterings: Vec<Clustering>,
     /// Whether frames are shaded; true at first.
@@ -134,6 +137,10 @@ impl Engine {
                 (chosen.method, run.octree[0]),
                 &sizes.capacities.octree,
             )?,
+            shell_layers: chosen
+                .has_layers()
+                .then(|| shell_layers::make(&session.context, largest.sides, mode.lights.count))
+                .transpose()?,
             slice_planes: Vec::with_capacity(largest.slice_planes as usize),
             clusterings: vec![],
             shaded: true,
@@ -172,7 +179,8 @@ impl Engine {
         let copies = Copies { clusterings: self.clusterings.len() as u64, slots: FRAME_SLOTS as u64 };
         let frames: Vec<&[ClusteringCounts]> =
             counts.iter().map(|frame| frame.clusterings.as_slice()).collect();
-        self.sizes.memory(copies, &frames)
+        let layers = self.shell_layers.as_ref().map(shell_layers::memory);
+        self.sizes.memory(copies, &frames).into_iter().chain(layers).collect()
     }
 
     /// Cells of a clustering's grid along each axis, in the frame written last.
@@ -307,6 +315,7 @@ impl Engine {
             pipeline: self.pipeline,
             shaded: self.shaded,
             lights: self.lights.upload(slot),
+            shell_layers: self.shell_layers.as_ref(),
             octree: self.octree.as_ref().map(|octree| octree.tables(slot)),
             states: &this.states,
             resolution: self.resolution,

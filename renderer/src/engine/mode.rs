@@ -3,8 +3,8 @@
 use super::FramePlan;
 use super::lights::Room;
 use crate::assign::{
-    Assigner, ClusterBounds, Clusters, Compaction, ListStore, MeshDetail, NODES_PER_CLUSTER, check_links,
-    check_one_pass, check_sorted_slices, check_sorted_tiles,
+    Assigner, ClusterBounds, Clusters, Compaction, Conservative, ListStore, MeshDetail, NODES_PER_CLUSTER,
+    check_layered_slices, check_links, check_one_pass, check_sorted_slices, check_sorted_tiles,
 };
 use crate::buffers::ClusteringSizes;
 use crate::config::Config;
@@ -23,6 +23,8 @@ pub struct LargestGrid {
     pub clusters: u64,
     /// Most tiles of a grid: clusters along x times those along y.
     pub tiles: u64,
+    /// Most of them along x, and most along y.
+    pub sides: [u32; 2],
     /// Most depths between slices of a grid.
     pub slice_planes: u32,
 }
@@ -33,6 +35,7 @@ impl LargestGrid {
         let largest = |all: Self, grid: &Grid| Self {
             clusters: all.clusters.max(grid.cluster_count()),
             tiles: all.tiles.max(grid.dimensions[..2].iter().map(|&count| u64::from(count)).product()),
+            sides: [0, 1].map(|axis| all.sides[axis].max(grid.dimensions[axis])),
             slice_planes: all.slice_planes.max(grid.dimensions[2] + 1),
         };
         plans.iter().flat_map(|plan| &plan.grids).fold(Self::default(), largest)
@@ -43,7 +46,7 @@ impl LargestGrid {
     /// # Errors
     /// Says how large it is, and how large it may be.
     pub fn check(&self, plan: &FramePlan) -> Result<()> {
-        let Self { clusters, tiles, slice_planes } = Self::of(std::slice::from_ref(plan));
+        let Self { clusters, tiles, slice_planes, .. } = Self::of(std::slice::from_ref(plan));
         if clusters <= self.clusters && tiles <= self.tiles && slice_planes <= self.slice_planes {
             return Ok(());
         }
@@ -93,6 +96,7 @@ pub(super) struct Chosen {
     slices: SliceLaw,
     test: VolumeTest,
     mesh_detail: MeshDetail,
+    conservative: Conservative,
 }
 
 impl Chosen {
@@ -126,6 +130,7 @@ impl Chosen {
             slices: run.slices[0].of(&method),
             test: run.test[0].of(&method),
             mesh_detail: run.mesh_detail[0],
+            conservative: run.conservative[0],
         }
     }
 
@@ -145,7 +150,17 @@ impl Chosen {
             check_sorted_slices(largest.slice_planes.saturating_sub(1)).map_err(Error::Input)?;
             check_sorted_tiles(self.sorted_tile, samples, shared).map_err(Error::Input)?;
         }
-        Ok(())
+        let slices = largest.slice_planes.saturating_sub(1);
+        if self.has_layers() {
+            check_layered_slices(self.conservative, slices).map_err(Error::Input)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Whether meshes are drawn into layers of images.
+    pub fn has_layers(&self) -> bool {
+        self.assigner == Assigner::Raster && self.conservative.has_layers()
     }
 
     /// Refuses more models, or more lights, than the way of assignment serves.
@@ -204,7 +219,7 @@ impl Chosen {
             multiview: run.multiview,
             marking: run.marking,
             assigner: self.assigner,
-            conservative: run.conservative[0],
+            conservative: self.conservative,
             mesh_detail: self.mesh_detail,
             test: VolumeTest { cone: self.cones(mode), ..self.test },
             lights_at_once: lights_at_once(self.method.has_lists(), mode.lights.count),
@@ -219,7 +234,7 @@ impl Chosen {
 
     /// How large its buffers are.
     pub fn sizes(&self, run: &Config, largest: LargestGrid, mode: &Mode) -> ClusteringSizes {
-        let LargestGrid { clusters, tiles, slice_planes } = largest;
+        let LargestGrid { clusters, tiles, slice_planes, .. } = largest;
         let kind = self.method.kind();
         let list_entries = match self.lists {
             ListStore::Fixed(entries) => entries.max(mode.capacities.list_entries),
@@ -244,6 +259,7 @@ impl Chosen {
             spots: mode.lights.spots,
             capacities: Capacities { list_entries, ..capacities },
             assigner: self.assigner,
+            shell_layers: self.has_layers(),
             has_octree: kind.groups == Groups::Leaves,
             counting: mode.counting,
             pixels: u64::from(run.resolution[0]) * u64::from(run.resolution[1]),
@@ -271,7 +287,7 @@ mod tests {
     #[test]
     fn a_grid_larger_than_planned_is_refused_in_one_line() {
         let largest = LargestGrid::of(&[plan([4, 3, 2]), plan([2, 2, 5])]);
-        assert_eq!(largest, LargestGrid { clusters: 24, tiles: 12, slice_planes: 6 });
+        assert_eq!(largest, LargestGrid { clusters: 24, tiles: 12, sides: [4, 3], slice_planes: 6 });
         for fits in [[4, 3, 2], [4, 1, 5], [1, 1, 1]] {
             largest.check(&plan(fits)).unwrap();
         }

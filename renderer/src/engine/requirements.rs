@@ -1,6 +1,6 @@
 //! What a configuration asks of the device.
 
-use crate::assign::{Conservative, Marking};
+use crate::assign::Marking;
 use crate::config::Config;
 use crate::culling::Culling;
 use crate::geometry::views::ViewSet;
@@ -47,11 +47,17 @@ pub fn check_device(context: &Context, config: &Config, views: ViewSet) -> Resul
     }
     let draws_shells = config.methods.iter().any(Method::has_shells);
     if draws_shells
-        && config.conservative.contains(&Conservative::Hardware)
+        && config.conservative.iter().any(|way| way.is_hardware())
         && !limits.conservative_rasterization
     {
         return Err(Error::Device(format!(
             "{} lacks VK_EXT_conservative_rasterization, which drawing meshes by hardware needs: use --conservative auto",
+            context.info.name
+        )));
+    }
+    if draws_shells && config.conservative.iter().any(|way| way.has_layers()) && !limits.shader_output_layer {
+        return Err(Error::Device(format!(
+            "{} lacks shaderOutputLayer, which drawing meshes into layers needs: use --conservative without -layers",
             context.info.name
         )));
     }

@@ -54,9 +54,14 @@ pub struct Session {
 impl Session {
     /// Opens the device and uploads `scene` for the views of `view_set`.
     pub fn new(config: &Config, scene: &Scene, view_set: ViewSet) -> Result<Self> {
+        let (device, validate) = (config.device.clone(), config.validate);
+        let options = DeviceOptions { device, validate, ..DeviceOptions::default() };
+        Self::on(Context::new(&options)?, config, scene, view_set)
+    }
+
+    /// Uploads `scene` to an open device.
+    pub fn on(context: Arc<Context>, config: &Config, scene: &Scene, view_set: ViewSet) -> Result<Self> {
         let views = view_set.count;
-        let options = DeviceOptions { device: config.device.clone(), validate: config.validate };
-        let context = Context::new(&options)?;
         check_device(&context, config, view_set)?;
         check_resolution(&context, config.resolution)?;
         check_views(views)?;

@@ -21,6 +21,9 @@ use crate::vk::{Buffer, Memory};
 use ash::vk;
 use std::mem::offset_of;
 
+/// The views of a workbench.
+pub const ONE_VIEW: ViewSet = ViewSet { count: 1, mirrors: false };
+
 /// The frame in flight that a workbench uses.
 const SLOT: usize = 0;
 
@@ -81,7 +84,7 @@ impl Workbench {
     /// # Errors
     /// No device, or one that cannot do this.
     pub fn new(config: &Config, scene: &Scene, case: Case, faults: Faults) -> Result<Self> {
-        let mut session = Session::new(config, scene, ViewSet { count: 1, mirrors: false })?;
+        let mut session = Session::new(config, scene, ONE_VIEW)?;
         session.tracker.faults = faults;
         Self::on(session, config, case)
     }
@@ -96,7 +99,11 @@ impl Workbench {
         Self::on(session, config, case)
     }
 
-    fn on(mut session: Session, config: &Config, case: Case) -> Result<Self> {
+    /// A case on the device of a session of one view.
+    ///
+    /// # Errors
+    /// The device cannot do this.
+    pub fn on(mut session: Session, config: &Config, case: Case) -> Result<Self> {
         let Case { method, grid, lights, capacities } = case;
         let plan = frame_of(grid, config.resolution);
         let assigner = config.assign[0].fixed().unwrap_or(Assigner::Brute);

@@ -1,7 +1,7 @@
 //! Fills, copies and resolves, a call each.
 
 use super::{Access, Recorder, Use};
-use crate::vk::Buffer;
+use crate::vk::{Buffer, Image};
 use ash::vk;
 use std::ops::Range;
 
@@ -83,6 +83,28 @@ impl Recorder<'_> {
                 to.handle,
                 &[region],
             );
+        }
+    }
+
+    /// Copies the first layers of a colour image, of each a part so large, into a buffer from a byte on, one behind the other.
+    pub fn copy_layers(
+        &mut self,
+        (image, layers): (&Image, u32),
+        [width, height]: [u32; 2],
+        (to, offset): (vk::Buffer, u64),
+    ) {
+        self.access([
+            Access::image(image.handle, image.aspect, Use::TransferRead),
+            Access::buffer(to, Use::TransferWrite),
+        ]);
+        let part = vk::ImageSubresourceLayers::default().aspect_mask(image.aspect).layer_count(layers);
+        let region = vk::BufferImageCopy::default()
+            .buffer_offset(offset)
+            .image_subresource(part)
+            .image_extent(vk::Extent3D { width, height, depth: 1 });
+        let (commands, layout) = (self.commands(), vk::ImageLayout::TRANSFER_SRC_OPTIMAL);
+        unsafe {
+            self.context.device.cmd_copy_image_to_buffer(commands, image.handle, layout, to, &[region]);
         }
     }
 

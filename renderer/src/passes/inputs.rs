@@ -143,6 +143,8 @@ pub struct Frame<'a> {
     pub pipelines: &'a Pipelines,
     /// The scene that is drawn.
     pub scene: &'a GpuScene,
+    /// Layers of an image that meshes around lights are drawn into, where they are.
+    pub shell_layers: Option<&'a Image>,
     /// What each view draws of the scene.
     pub draws: Draws<'a>,
     /// What each view is rendered into.

@@ -8,9 +8,13 @@
 //! nodes ─sort_lists─> lists
 //! ```
 //!
-//! The triangles of a mesh are drawn over a screen with a pixel a tile, conservatively, by the device or as rectangles; or compute shaders
-//! ask all of them in every tile around the mesh. Pixels leave slices in `shell_ranges`, the least of each half, so that no order
-//! matters, and no layers of images are needed: the paper has one a light, of which devices have 2048.
+//! The triangles of a mesh are drawn over a screen with a pixel a tile, conservatively, by the device or grown by half a tile; or compute
+//! shaders ask all of them in every tile around the mesh. Pixels leave slices in `shell_ranges`, the least of each half, so that no order
+//! matters; or, as in the paper, in the layers of an image, one a light, as many lights at once as the device has layers:
+//!
+//! ```text
+//! batch of lights ─shell─> layers ─copied─> shell_texels ─start_shells─> shell_ranges
+//! ```
 
 use super::assign::{clear_lists, count_bits, indirect, meet};
 use super::handles::{LightLists, Lights, VisibleClusters};
@@ -22,6 +26,7 @@ use crate::gpu_interface::{ASSIGN_WORKGROUP, DISPATCH_LISTS, DISPATCH_MEET, MESH
 use crate::layouts::Pipeline;
 use crate::pass::{Dispatch, Draw, Recorder, Size};
 use crate::pipelines::Shells;
+use crate::vk::Image;
 
 /// Stages of the shells of points, and of those of spots.
 pub const SHELLS: [&str; 2] = ["shell_points", "shell_spots"];
@@ -77,17 +82,36 @@ fn shells_of_mesh(r: &mut Recorder, frame: &Frame, visible: VisibleClusters, she
             run(r, frame, visible, (pipeline, size), declared);
         }
         Shells::Drawn { start, draw, vertices } => {
-            run(r, frame, visible, (start, Size::Workgroups(lights, 1)), declared);
-            r.draw(&Draw {
+            let start = (&**start, Size::Workgroups(lights, 1));
+            let draw = Draw {
                 pipeline: draw,
                 buffers: frame.buffers(visible.clustering),
                 size: [columns, rows],
                 vertices: *vertices,
-                instances: lights,
+                instances: 0..lights,
+                layers: frame.shell_layers,
                 reads: declared.0,
                 writes: declared.1,
-            });
+            };
+            if let Some(layers) = frame.shell_layers {
+                draw_batches(r, &draw, layers);
+                return run(r, frame, visible, start, (declared.0 | set(&[B::ShellTexels]), declared.1));
+            }
+            run(r, frame, visible, start, declared);
+            r.draw(&draw);
         }
+    }
+}
+
+/// Draws as many lights at once as there are layers, whose texels are taken to those of all lights.
+fn draw_batches(r: &mut Recorder, draw: &Draw, layers: &Image) {
+    let texels = draw.buffers.handles[B::ShellTexels as usize];
+    let light_bytes = 2 * u64::from(draw.size[0] * draw.size[1]);
+    for first in draw.instances.clone().step_by(layers.layers as usize) {
+        let instances = first..draw.instances.end.min(first + layers.layers);
+        let count = instances.len() as u32;
+        r.draw(&Draw { instances, writes: BufferSet::EMPTY, ..draw.clone() });
+        r.copy_layers((layers, count), draw.size, (texels, light_bytes * u64::from(first)));
     }
 }
 

@@ -5,7 +5,7 @@ use crate::Result;
 use crate::assign::{Assigner, Conservative};
 use crate::geometry::{LightMesh, MeshKind};
 use crate::layouts::{Pipeline, PipelineLayout};
-use crate::vk::{self as gpu, GraphicsDesc};
+use crate::vk::{self as gpu, Blend, GraphicsDesc};
 use ash::vk;
 use std::sync::Arc;
 
@@ -34,7 +34,7 @@ pub enum Shells {
     Computed(Arc<Pipeline>),
     /// By drawing triangles.
     Drawn {
-        /// What slices are before any triangle is drawn.
+        /// What slices are before any triangle is drawn; into layers, what they are beside those that layers have.
         start: Arc<Pipeline>,
         /// Draws all triangles of a light, an instance a light.
         draw: Arc<Pipeline>,
@@ -77,22 +77,19 @@ impl PipelineStore {
     }
 
     fn shells(&mut self, variant: &Variant, meshes: &Meshes) -> Result<Shells> {
-        let hardware = match variant.conservative.on(&self.context.limits) {
-            Conservative::Compute => {
-                return Ok(Shells::Computed(self.compute("raster/shell.comp", &meshes.defines)?));
-            }
-            Conservative::Hardware => true,
-            Conservative::Software | Conservative::Auto => false,
-        };
-        let start = self.compute("raster/start_shells.comp", &meshes.defines)?;
-        let draw = self.draw_shells(&meshes.defines, hardware)?;
-        let vertices = meshes.triangles * if hardware { 3 } else { 6 };
-        Ok(Shells::Drawn { start, draw, vertices })
+        let way = variant.conservative.on(&self.context.limits);
+        if way == Conservative::Compute {
+            return Ok(Shells::Computed(self.compute("raster/shell.comp", &meshes.defines)?));
+        }
+        let defines = meshes.defines.with("LAYERS", u32::from(way.has_layers()));
+        let start = self.compute("raster/start_shells.comp", &defines)?;
+        let draw = self.draw_shells(&defines, way)?;
+        Ok(Shells::Drawn { start, draw, vertices: 3 * meshes.triangles })
     }
 
     /// Draws meshes over a screen of which a pixel is a tile.
-    fn draw_shells(&mut self, defines: &Defines, hardware: bool) -> Result<Arc<Pipeline>> {
-        let defines = defines.with("HARDWARE", u32::from(hardware));
+    fn draw_shells(&mut self, defines: &Defines, way: Conservative) -> Result<Arc<Pipeline>> {
+        let defines = defines.with("HARDWARE", u32::from(way.is_hardware()));
         self.once(format!("shells {defines:?}"), |store, number| {
             let vertex = store.shaders.compile("raster/shell.vert", &defines.0)?;
             let fragment = store.shaders.compile("raster/shell.frag", &defines.0)?;
@@ -103,7 +100,9 @@ impl PipelineStore {
                 vertex: &vertex,
                 fragment: Some(&fragment),
                 cull_mode: vk::CullModeFlags::NONE,
-                conservative: hardware,
+                color_formats: if way.has_layers() { &[vk::Format::R8G8_UNORM] } else { &[] },
+                blend: Blend::Least,
+                conservative: way.is_hardware(),
                 ..Default::default()
             };
             let pipeline = gpu::graphics_pipeline(&store.context, layout.handle, &desc, "raster/shell.vert")?;

@@ -16,7 +16,11 @@ use crate::vk::{Context, DeviceInfo, DeviceOptions};
 /// # Errors
 /// There is none, or it lacks something.
 pub fn device_info(config: &Config) -> Result<DeviceInfo> {
-    let options = DeviceOptions { device: config.device.clone(), validate: config.validate };
+    let options = DeviceOptions {
+        device: config.device.clone(),
+        validate: config.validate,
+        ..DeviceOptions::default()
+    };
     Ok(Context::new(&options)?.info.clone())
 }
 

@@ -20,6 +20,8 @@ pub struct DeviceOptions {
     pub device: Option<String>,
     /// Turns the validation layers with synchronization validation on.
     pub validate: bool,
+    /// Has the device do with fewer layers of images than it offers, so that tests see what needs several batches then.
+    pub most_layers: Option<u32>,
 }
 
 /// An open device. Everything made from it holds it by [`Arc`], so it is destroyed last.
@@ -56,7 +58,7 @@ impl Context {
         let mut context = Self {
             queue: unsafe { device.get_device_queue(chosen.queue_family, 0) },
             queue_family: chosen.queue_family,
-            limits: chosen.limits,
+            limits: chosen.limits.with_layers(options.most_layers),
             info: chosen.info,
             physical: chosen.physical,
             debug: instance.debug_utils.then(|| ext::debug_utils::Device::new(&instance.handle, &device)),

@@ -200,6 +200,7 @@ impl fmt::Display for ListedDevice {
         )?;
         row("shared memory", bytes_text(limits.max_compute_shared_memory.into()))?;
         row("image side", format!("{} texels", limits.max_image_dimension_2d))?;
+        row("image layers", limits.max_layers.to_string())?;
         row(
             "MSAA",
             format!(

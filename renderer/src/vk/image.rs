@@ -27,6 +27,8 @@ pub struct ImageDesc {
     pub usage: vk::ImageUsageFlags,
     /// Aspect that the image's view shows.
     pub aspect: vk::ImageAspectFlags,
+    /// Whether each layer has a view of its own too.
+    pub layer_views: bool,
 }
 
 impl Default for ImageDesc {
@@ -41,17 +43,18 @@ impl Default for ImageDesc {
             samples: vk::SampleCountFlags::TYPE_1,
             usage: vk::ImageUsageFlags::empty(),
             aspect: vk::ImageAspectFlags::COLOR,
+            layer_views: true,
         }
     }
 }
 
-/// A device-local image with its memory, a view of all its levels and layers, and one of each layer. Its layout starts as UNDEFINED.
+/// A device-local image with its memory, a view of all its levels and layers, and one of each layer where these are wanted. Its layout starts as UNDEFINED.
 pub struct Image {
     /// Vulkan handle, for commands.
     pub handle: vk::Image,
     /// All levels and layers, of [`Image::aspect`]; an array where there are several layers.
     pub view: vk::ImageView,
-    /// All levels of each layer.
+    /// All levels of each layer; none where they were not wanted.
     pub layer_views: Vec<vk::ImageView>,
     /// Format of a texel.
     pub format: vk::Format,
@@ -76,7 +79,8 @@ impl Image {
     /// [`Error::Device`] when the size, format or sample count is over what the device has, or the memory is out.
     pub fn new(context: &Arc<Context>, name: &str, desc: ImageDesc) -> Result<Self> {
         check(context, name, &desc)?;
-        let ImageDesc { width, height, mip_levels, layers, format, samples, usage, aspect } = desc;
+        let ImageDesc { width, height, mip_levels, layers, format, samples, usage, aspect, layer_views } =
+            desc;
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
             .format(format)
@@ -102,7 +106,7 @@ impl Image {
             context: context.clone(),
         };
         image.bind(name)?;
-        image.make_views(name)?;
+        image.make_views(name, layer_views)?;
         Ok(image)
     }
 
@@ -127,11 +131,11 @@ impl Image {
         bound.map_err(|e| vk_error(&format!("{name}: binding memory"), e))
     }
 
-    fn make_views(&mut self, name: &str) -> Result<()> {
+    fn make_views(&mut self, name: &str, of_layers: bool) -> Result<()> {
         let kind =
             if self.layers > 1 { vk::ImageViewType::TYPE_2D_ARRAY } else { vk::ImageViewType::TYPE_2D };
         self.view = self.make_view(name, kind, self.range())?;
-        for layer in 0..self.layers {
+        for layer in 0..if of_layers { self.layers } else { 0 } {
             let range = self.range().base_array_layer(layer).layer_count(1);
             let view = self.make_view(&format!("{name} layer {layer}"), vk::ImageViewType::TYPE_2D, range)?;
             self.layer_views.push(view);

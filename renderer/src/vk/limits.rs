@@ -77,6 +77,8 @@ pub struct Limits {
     pub subgroup_size: u32,
     /// Device-local memory, bytes over all heaps.
     pub device_local_bytes: u64,
+    /// Layers of the largest array image and frame.
+    pub max_layers: u32,
     /// Whether vertex shaders may choose the layer.
     pub shader_output_layer: bool,
     /// Whether vertex shaders may clip.
@@ -95,6 +97,13 @@ pub struct Limits {
     pub shader_draw_parameters: bool,
     /// Whether shaders have 64-bit integers.
     pub shader_int64: bool,
+}
+
+impl Limits {
+    /// These with no more layers of images than so many.
+    pub(super) fn with_layers(self, most: Option<u32>) -> Self {
+        Self { max_layers: most.map_or(self.max_layers, |most| most.min(self.max_layers)), ..self }
+    }
 }
 
 /// Reads the name and driver of `physical`.
@@ -206,6 +215,7 @@ pub(super) fn read_limits(instance: &ash::Instance, physical: vk::PhysicalDevice
         },
         draw_indirect_first_instance: core.draw_indirect_first_instance == vk::TRUE,
         max_image_dimension_2d: max_dimension(&base),
+        max_layers: base.max_image_array_layers.min(base.max_framebuffer_layers),
         sample_counts: sample_counts(&base),
         standard_sample_locations: base.standard_sample_locations == vk::TRUE,
         sample_rate_shading: core.sample_rate_shading == vk::TRUE,

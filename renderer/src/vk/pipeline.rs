@@ -49,6 +49,8 @@ pub enum Blend {
     Over,
     /// The source's colour is added; alpha remains.
     Add,
+    /// Of each component the least of both remains.
+    Least,
 }
 
 /// What a graphics pipeline does but for its shaders. Start from [`Default`].
@@ -187,15 +189,18 @@ fn blend_state(blend: Blend) -> vk::PipelineColorBlendAttachmentState {
         Blend::Replace => [[F::ONE, F::ZERO]; 2],
         Blend::Over => [[F::SRC_ALPHA, F::ONE_MINUS_SRC_ALPHA], [F::ONE, F::ONE_MINUS_SRC_ALPHA]],
         Blend::Add => [[F::ONE, F::ONE], [F::ZERO, F::ONE]],
+        // Factors do not bear on the least of two.
+        Blend::Least => [[F::ONE, F::ONE]; 2],
     };
+    let operation = if blend == Blend::Least { vk::BlendOp::MIN } else { vk::BlendOp::ADD };
     vk::PipelineColorBlendAttachmentState::default()
         .blend_enable(blend != Blend::Replace)
         .src_color_blend_factor(color[0])
         .dst_color_blend_factor(color[1])
-        .color_blend_op(vk::BlendOp::ADD)
+        .color_blend_op(operation)
         .src_alpha_blend_factor(alpha[0])
         .dst_alpha_blend_factor(alpha[1])
-        .alpha_blend_op(vk::BlendOp::ADD)
+        .alpha_blend_op(operation)
         .color_write_mask(vk::ColorComponentFlags::RGBA)
 }
 

@@ -20,6 +20,7 @@ fn sizes() -> ClusteringSizes {
         spots: false,
         capacities,
         assigner,
+        shell_layers: false,
         has_octree: false,
         counting: true,
         pixels: 64,

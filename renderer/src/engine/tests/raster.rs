@@ -4,12 +4,15 @@ use super::bounds::with_clusters;
 use super::boxes::{by_law, sliced};
 use super::cones::mixed;
 use super::*;
-use crate::assign::{Conservative, Links, ListStore, MeshDetail, NODES_PER_CLUSTER};
+use crate::assign::Conservative::{self, Hardware, HardwareLayers, Software, SoftwareLayers};
+use crate::assign::{Links, ListStore, MeshDetail, NODES_PER_CLUSTER};
 use crate::engine::kept;
 use crate::geometry::views::Pose;
 use crate::geometry::{ClusterSpace, LightMesh, MeshKind, SliceLaw, Slices, SphereLevel, VolumeTest};
 use crate::gpu_interface::{GridData, MeshFrame};
 use crate::lights::Spot;
+use crate::passes::raster;
+use crate::vk::{Context, DeviceOptions};
 
 /// What a device has of a grid, as far as shells ask it.
 fn data_of(grid: &Grid) -> (GridData, Vec<f32>) {
@@ -269,11 +272,39 @@ fn drawn_shells_are_those_of_the_kernel() {
         let from_the_eye = computed.iter().filter(|word| *word & 0xFFFF == 0).count();
         assert!(from_the_eye * step > 1000 && computed.contains(&u32::MAX));
         // Hardware is asked where the device has it.
-        let hardware = has_hardware.then_some(Conservative::Hardware);
-        for way in [Conservative::Software].into_iter().chain(hardware) {
+        let has = |way: &&Conservative| has_hardware || !way.is_hardware();
+        let drawn = [HardwareLayers, Hardware, SoftwareLayers, Software];
+        for &way in drawn.iter().filter(has) {
             assert!(shell_words((way, detail), law, &lights).0 == computed, "{way}, {detail}");
         }
     }
+}
+
+/// Of 7 layers all but the last batch have 7 lights, points and spots among them.
+#[test]
+fn batches_of_layers_leave_the_slices_of_all_lights() {
+    let law = METHODS[0].1;
+    let (grid, lights) = (sliced(law), lights_that_are_cut(&sliced(law).pose));
+    let config = Config { conservative: vec![SoftwareLayers], ..by_law(law) };
+    let (computed, _) = shell_words((Conservative::Compute, PAPERS), law, &lights);
+    let options = DeviceOptions { validate: true, most_layers: Some(7), ..DeviceOptions::default() };
+    let context = Context::new(&options).unwrap();
+    let log = context.validation_log();
+    assert!(context.limits.max_layers == 7 && !lights.len().is_multiple_of(7));
+    let session = Session::on(context, &config, &street(), workbench::ONE_VIEW).unwrap();
+    let capacities = Capacities { visible_clusters: 1, light_indices: 100_000, ..Capacities::default() };
+    let case = Case { method: "raster-13-9-21-e".parse().unwrap(), grid, lights: &lights, capacities };
+    let mut bench = Bench(Workbench::on(session, &config, case).unwrap());
+    bench.run(|r, frame| {
+        let lights = light_upload::record(r, frame);
+        raster::mesh_frames(r, frame, lights, given());
+        raster::shells(r, frame, given());
+    });
+    let drawn = bench.download(BufferName::ShellRanges, computed.len());
+    let differ = drawn.iter().zip(&computed).filter(|(drawn, computed)| drawn != computed).count();
+    assert_eq!(differ, 0, "of {}", computed.len());
+    drop(bench);
+    assert_eq!(log.messages(), Vec::<String>::new());
 }
 
 /// Lavapipe ends a shader's loops after so many turns, in silence; workgroups share the tiles of a light.
@@ -286,7 +317,7 @@ fn nothing_is_left_out_where_there_are_many_tiles() {
     grid.space = ClusterSpace::Perspective { frustum, slices: Slices::new(law, &frustum, 0.3, 4.0) };
     let place = grid.pose.transform_point(DVec3::new(0.0, 0.0, -6.0)).as_vec3().to_array();
     let lights = [Light { r1: 5.9, ..Light::new(place, [1.0; 3], 1.0, 0.1, 0.1) }];
-    let [computed, drawn] = [Conservative::Compute, Conservative::Software].map(|way| {
+    let [computed, drawn] = [Conservative::Compute, Software].map(|way| {
         let mesh_detail = vec![MeshDetail::Level(SphereLevel::V642)];
         words_on(grid, &Config { conservative: vec![way], mesh_detail, ..by_law(law) }, &lights).0
     });

@@ -9,8 +9,12 @@ use crate::scene;
 use std::sync::Arc;
 
 /// Runs `test` on a device whose validation must stay silent until it is closed.
+fn validated() -> DeviceOptions {
+    DeviceOptions { validate: true, ..DeviceOptions::default() }
+}
+
 fn silently(test: impl FnOnce(&Arc<Context>)) {
-    let context = Context::new(&DeviceOptions { device: None, validate: true }).unwrap();
+    let context = Context::new(&validated()).unwrap();
     let log = context.validation_log();
     test(&context);
     drop(context);
@@ -126,7 +130,7 @@ fn to_host(context: &Context, cmd: vk::CommandBuffer) {
 
 #[test]
 fn a_device_opens_and_closes_without_a_validation_message() {
-    let context = Context::new(&DeviceOptions { device: None, validate: true }).unwrap();
+    let context = Context::new(&validated()).unwrap();
     assert!(context.limits.timestamp_valid_bits > 0 && context.limits.sample_counts.contains(&1));
     context.wait_idle().unwrap();
     context.check_validation().unwrap();
@@ -137,7 +141,7 @@ fn a_device_opens_and_closes_without_a_validation_message() {
 
 #[test]
 fn what_is_left_over_when_the_device_closes_is_in_the_log() {
-    let context = Context::new(&DeviceOptions { device: None, validate: true }).unwrap();
+    let context = Context::new(&validated()).unwrap();
     let leaked = unsafe { context.device.create_fence(&vk::FenceCreateInfo::default(), None) }.unwrap();
     context.name(leaked, "the leaked fence");
     let log = context.validation_log();
@@ -147,7 +151,7 @@ fn what_is_left_over_when_the_device_closes_is_in_the_log() {
 
 #[test]
 fn a_missing_barrier_is_a_validation_error() {
-    let context = Context::new(&DeviceOptions { device: None, validate: true }).unwrap();
+    let context = Context::new(&validated()).unwrap();
     let usage = vk::BufferUsageFlags::TRANSFER_DST;
     let buffer = Buffer::new(&context, "raced for", 256, usage, Memory::Device).unwrap();
     context
@@ -164,12 +168,14 @@ fn a_missing_barrier_is_a_validation_error() {
 
 #[test]
 fn a_device_that_is_not_there_is_named_with_those_that_are() {
-    let options = DeviceOptions { device: Some("Voodoo 2".into()), validate: false };
+    let options =
+        DeviceOptions { device: Some("Voodoo 2".into()), validate: false, ..DeviceOptions::default() };
     let error = Context::new(&options).err().unwrap();
     let first = list_devices().unwrap()[0].0.name.clone();
     assert!(matches!(error, Error::Input(_)));
     assert!(error.to_string().contains("\"Voodoo 2\"") && error.to_string().contains(&first), "{error}");
-    let by_name = DeviceOptions { device: Some(first.to_uppercase()), validate: false };
+    let by_name =
+        DeviceOptions { device: Some(first.to_uppercase()), validate: false, ..DeviceOptions::default() };
     assert_eq!(Context::new(&by_name).unwrap().info.name, first);
 }
 
