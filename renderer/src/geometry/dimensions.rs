@@ -62,8 +62,12 @@ pub fn counted_pixels([width, _]: [u32; 2], columns: f64) -> f64 {
 pub fn counted_tiles(frustum: &Frustum, resolution: [u32; 2], counts: DVec3) -> (f64, PerspectiveDimensions) {
     let pixels = counted_pixels(resolution, counts.x);
     let rows = counts.y.max(round_up(f64::from(resolution[1]) / pixels));
-    let ratio = (depth_span(frustum) / counts.z).exp_m1();
-    (pixels, PerspectiveDimensions { dimensions: DVec3::new(counts.x, rows, counts.z), ratio })
+    (pixels, counted(frustum, DVec3::new(counts.x, rows, counts.z)))
+}
+
+/// So many columns, rows and slices, whatever sides they give.
+pub fn counted(frustum: &Frustum, counts: DVec3) -> PerspectiveDimensions {
+    PerspectiveDimensions { dimensions: counts, ratio: (depth_span(frustum) / counts.z).exp_m1() }
 }
 
 impl PerspectiveDimensions {

@@ -30,7 +30,7 @@ mod volume_test;
 
 pub use cell_test::{CellTest, Plane, axis_box, half_space};
 pub use dimensions::{
-    PerspectiveDimensions, average_volume, counted_pixels, counted_tiles, from_metres, from_pixels,
+    PerspectiveDimensions, average_volume, counted, counted_pixels, counted_tiles, from_metres, from_pixels,
     from_volume, side_in_tangents, sliced_tiles,
 };
 pub use displaced::{DisplacedVolume, displaced};

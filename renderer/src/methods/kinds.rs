@@ -60,7 +60,7 @@ const PERSPECTIVE: Kind = Kind {
 
 /// Every kind of method. All serve transparent geometry, all views in stereo, and any number of samples (models: where fragments
 /// run for each).
-pub static KINDS: [Kind; 24] = [
+pub static KINDS: [Kind; 26] = [
     Kind {
         name: "indi-persp",
         sizes: &["PIXELS"],
@@ -228,7 +228,7 @@ pub static KINDS: [Kind; 24] = [
         title: "Raster E",
         about: "so many tiles and slices, these geometric behind the first; all clusters that the mesh around a light meets have it",
         groups: Groups::Cells(CellShape::BoxedFrustum),
-        make: |sizes| rasterised(Assigner::Raster, SLICES_E, sizes),
+        make: |sizes| rasterised((Assigner::Raster, Sharing::Indi), SLICES_E, sizes),
         ..PERSPECTIVE
     },
     Kind {
@@ -239,7 +239,31 @@ pub static KINDS: [Kind; 24] = [
         title: "Raster L",
         about: "the same, in slices of equal depth",
         groups: Groups::Cells(CellShape::BoxedFrustum),
-        make: |sizes| rasterised(Assigner::Raster, SliceLaw::Linear, sizes),
+        make: |sizes| rasterised((Assigner::Raster, Sharing::Indi), SliceLaw::Linear, sizes),
+        ..PERSPECTIVE
+    },
+    Kind {
+        name: "encl-raster",
+        suffix: "-e",
+        sizes: &["COLUMNS", "ROWS", SLICES],
+        tuned: &[24.0, 12.0, 64.0],
+        title: "Encl Raster E",
+        about: "so many columns, rows and slices of the frustum that encloses all views, with the lights of raster",
+        sharing: Sharing::Encl,
+        groups: Groups::Cells(CellShape::BoxedFrustum),
+        make: |sizes| rasterised((Assigner::Raster, Sharing::Encl), SLICES_E, sizes),
+        ..PERSPECTIVE
+    },
+    Kind {
+        name: "encl-raster",
+        suffix: "-l",
+        sizes: &["COLUMNS", "ROWS", SLICES],
+        tuned: &[24.0, 12.0, 128.0],
+        title: "Encl Raster L",
+        about: "the same, in slices of equal depth",
+        sharing: Sharing::Encl,
+        groups: Groups::Cells(CellShape::BoxedFrustum),
+        make: |sizes| rasterised((Assigner::Raster, Sharing::Encl), SliceLaw::Linear, sizes),
         ..PERSPECTIVE
     },
     Kind {
@@ -250,7 +274,7 @@ pub static KINDS: [Kind; 24] = [
         title: "Raster Count E",
         about: "lists of raster, a light at a time: no slices of meshes are kept",
         groups: Groups::Cells(CellShape::BoxedFrustum),
-        make: |sizes| rasterised(Assigner::RasterCount, SLICES_E, sizes),
+        make: |sizes| rasterised((Assigner::RasterCount, Sharing::Indi), SLICES_E, sizes),
         ..PERSPECTIVE
     },
     Kind {
@@ -261,7 +285,7 @@ pub static KINDS: [Kind; 24] = [
         title: "Raster Count L",
         about: "the same, in slices of equal depth",
         groups: Groups::Cells(CellShape::BoxedFrustum),
-        make: |sizes| rasterised(Assigner::RasterCount, SliceLaw::Linear, sizes),
+        make: |sizes| rasterised((Assigner::RasterCount, Sharing::Indi), SliceLaw::Linear, sizes),
         ..PERSPECTIVE
     },
     Kind {
@@ -326,9 +350,9 @@ pub static KINDS: [Kind; 24] = [
 const SLICES_E: SliceLaw = SliceLaw::SecondPlane { metres: 5.0 };
 
 /// Tiles and slices, all with lists, to which meshes around lights are rasterised (Örtegren and Persson).
-fn rasterised(rasterising: Assigner, slices: SliceLaw, sizes: &Sizes) -> Method {
+fn rasterised((rasterising, sharing): (Assigner, Sharing), slices: SliceLaw, sizes: &Sizes) -> Method {
     let space = Space::Counted { columns: sizes[0], rows: sizes[1], slices: sizes[2] };
-    let grid = GridMethod::new(Sharing::Indi, space);
+    let grid = GridMethod::new(sharing, space);
     Method::Grid(GridMethod { clusters: Clusters::All, slices, rasterising: Some(rasterising), ..grid })
 }
 

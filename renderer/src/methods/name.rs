@@ -73,6 +73,7 @@ mod tests {
             "ortiz-16-9-24",
             "raster-24-12-32-e",
             "raster-48-24-128-l",
+            "encl-raster-24-12-64-e",
             "tiled-mm-32",
             "clustered-mm-12.5",
             "all-lights",

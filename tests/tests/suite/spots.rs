@@ -45,6 +45,7 @@ fn every_way_of_assignment_shades_spots_in_both_eyes_with_four_samples() {
         "g-20",
         "raster-16-9-24-e",
         "raster-12-6-32-l",
+        "encl-raster-18-9-24-e",
     ];
     let assign = vec![Assign::Brute, Assign::Hierarchy, Assign::Scatter];
     let frames = FrameRange { first: 340, end: Some(341), step: 1 };

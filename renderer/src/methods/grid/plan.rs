@@ -4,7 +4,7 @@ use super::{GridMethod, Space};
 use crate::geometry::views::{Pose, View, common_mirror, head_space};
 use crate::geometry::{
     ClusterSpace, DisplacedVolume, Frustum, Grid, PerspectiveDimensions, SliceLaw, Slices, average_volume,
-    counted_tiles, displaced, enclosing, from_metres, from_pixels, from_volume, sliced_tiles,
+    counted, counted_tiles, displaced, enclosing, from_metres, from_pixels, from_volume, sliced_tiles,
 };
 use crate::methods::{Method, Sharing};
 use crate::{Error, Result};
@@ -132,7 +132,11 @@ impl Planner {
                 let (pose, frustum) = self.enclosing_frustum(&head, views)?;
                 self.perspective(pose, frustum, from_volume(&frustum, volume))
             }
-            Space::Tiled { .. } | Space::Sliced { .. } | Space::Counted { .. } => {
+            Space::Counted { columns, rows, slices } => {
+                let (pose, frustum) = self.enclosing_frustum(&head, views)?;
+                self.perspective(pose, frustum, counted(&frustum, DVec3::new(columns, rows, slices)))
+            }
+            Space::Tiled { .. } | Space::Sliced { .. } => {
                 Err(self.error("tiles divide the screen of one view and are not shared"))
             }
             Space::Ortho { metres } => self.orthographic(head, views, metres),

@@ -52,6 +52,10 @@ fn space() -> impl Strategy<Value = Space> {
         (1.0..20.0f64).prop_map(|metres| Space::Ortho { metres }),
         (16.0..200.0f64, 1.0..256.0f64)
             .prop_map(|(pixels, displacement)| Space::Displ { pixels, displacement }),
+        [1..40u32, 1..24u32, 1..64u32].prop_map(|counts| {
+            let [columns, rows, slices] = counts.map(f64::from);
+            Space::Counted { columns, rows, slices }
+        }),
     ]
 }
 

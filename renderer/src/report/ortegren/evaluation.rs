@@ -1,7 +1,7 @@
 //! Runs of raster methods as the paper asks them: by grid, slice law and lights.
 
 use crate::assign::Assigner;
-use crate::methods::Method;
+use crate::methods::{Method, Sharing};
 use crate::report::claim::mean;
 use crate::report::format::grouped;
 use crate::report::results::{ResultSet, Run, Setting, metric};
@@ -29,7 +29,7 @@ pub fn measures(method: Method) -> bool {
     method.is_rasterised()
 }
 
-/// A run that keeps shells.
+/// A run that keeps shells, of each view.
 #[derive(Clone, Copy)]
 pub struct Case<'a> {
     /// The run.
@@ -44,7 +44,8 @@ pub struct Case<'a> {
 
 impl<'a> Case<'a> {
     fn of(run: &'a Run) -> Option<Self> {
-        let is_shell = run.method.rasterising() == Some(Assigner::Raster);
+        let of_views = run.method.kind().sharing == Sharing::Indi;
+        let is_shell = of_views && run.method.rasterising() == Some(Assigner::Raster);
         let (grid, lights) = (run.grid?, run.lighting.count?);
         is_shell.then(|| Self { run, grid, linear: run.method.to_string().ends_with("-l"), lights })
     }
