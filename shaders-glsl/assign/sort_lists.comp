@@ -1,6 +1,7 @@
-// Sorts each list by light, a workgroup a list: a bitonic network whose every exchange puts the smaller number first, so
-// that what lies beyond the list's end never has to move. What was written are the numbers of lights, which ascend as the
-// lights do.
+// Sorts each list by light, a workgroup a list. What was written are the numbers of lights, which ascend as the lights do.
+//
+// A list of no more lights than threads: each light goes where as many stand before it as have smaller numbers. A longer one: a bitonic
+// network whose every exchange puts the smaller number first, so that what lies beyond the list's end never has to move.
 #version 460
 #include "lib/list_builder.glsl"
 #extension GL_EXT_control_flow_attributes : require
@@ -36,14 +37,22 @@ void exchange_all(uint first, uint size, uint half_block, bool inwards)
     barrier();
 }
 
-void main()
+// Of a list with a light a thread at most.
+void sort_by_ranks(uint first, uint size)
 {
-    uint visible = gl_WorkGroupID.y * LIST_ROW + gl_WorkGroupID.x;
-    uint first = 0u, size = 0u;
-    if (visible < state.visible) {
-        first = min(list_offsets[visible], grid.index_capacity);
-        size = min(list_offsets[visible + 1u], grid.index_capacity) - first;
-    }
+    uint place = gl_LocalInvocationID.x;
+    uint number = place < size ? light_indices[first + place] : 0u;
+    uint smaller = 0u;
+    for (uint i = 0u; i < size; ++i)
+        smaller += light_indices[first + i] < number ? 1u : 0u;
+    memoryBarrierBuffer();
+    barrier();
+    if (place < size)
+        light_indices[first + smaller] = light_of_number(number);
+}
+
+void sort_by_exchanges(uint first, uint size)
+{
     for (uint half_sorted = 1u; half_sorted < size; half_sorted *= 2u) {
         exchange_all(first, size, half_sorted, true);
         for (uint half_block = half_sorted / 2u; half_block > 0u; half_block /= 2u)
@@ -51,4 +60,17 @@ void main()
     }
     for (uint i = gl_LocalInvocationID.x; i < size; i += ASSIGN_WORKGROUP)
         light_indices[first + i] = light_of_number(light_indices[first + i]);
+}
+
+void main()
+{
+    uint visible = gl_WorkGroupID.y * LIST_ROW + gl_WorkGroupID.x;
+    if (visible >= state.visible)
+        return;
+    uint first = min(list_offsets[visible], grid.index_capacity);
+    uint size = min(list_offsets[visible + 1u], grid.index_capacity) - first;
+    if (size <= ASSIGN_WORKGROUP)
+        sort_by_ranks(first, size);
+    else
+        sort_by_exchanges(first, size);
 }
