@@ -39,6 +39,17 @@ impl OrientedBox {
         Self { center, half_extent, axes: DVec3::AXES }
     }
 
+    /// The corners, world space, metres: bit 0, 1 and 2 of the place choose the far side along each axis.
+    pub fn corners(&self) -> [DVec3; 8] {
+        std::array::from_fn(|corner| {
+            let sides = (0..3).map(|axis| {
+                let half = self.axes[axis] * self.half_extent[axis];
+                if corner >> axis & 1 == 0 { -half } else { half }
+            });
+            self.center + sides.sum::<DVec3>()
+        })
+    }
+
     /// How far a point of the world lies from the box, metres; 0 inside.
     pub fn distance(&self, point: DVec3) -> f64 {
         let offset = point - self.center;

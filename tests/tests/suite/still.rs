@@ -31,7 +31,7 @@ fn still(config: &Config, inputs: &Inputs, view: Option<&str>, items: &[Item]) -
 }
 
 fn seen_from(config: &Config, inputs: &Inputs, viewpoint: Viewpoint, items: &[Item]) -> Still {
-    let show = Show::from_items(items).unwrap();
+    let show = Show::from_items(items, None).unwrap();
     render(inputs, &planned_runs(config)[0], viewpoint, &show).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -166,7 +166,7 @@ fn what_cannot_be_shown_is_refused_before_the_device_is_asked() {
     let inputs = Inputs::load(&config).unwrap();
     let runs = planned_runs(&config);
     let refused = |view, items: &[Item]| {
-        let show = Show::from_items(items).unwrap();
+        let show = Show::from_items(items, None).unwrap();
         render(&inputs, &runs[0], Viewpoint::Named(view), &show).err().map(|error| error.to_string()).unwrap()
     };
     assert!(refused(None, &[Item::Clusters]).contains("all-lights has no clusters"));
