@@ -7,7 +7,7 @@
 //! lights ─Meshes::edges─────────────────────────────┘
 //! ```
 
-use super::cells::outline;
+use super::cells::Cells;
 use super::meshes::Meshes;
 use super::{Show, shapes};
 use crate::assign::MeshDetail;
@@ -22,6 +22,7 @@ use crate::octree::LinklessOctree;
 use crate::pipelines::Line;
 use crate::scene::Scene;
 use crate::{Error, Result};
+use glam::DVec3;
 
 /// Most lines of a still.
 const MOST: usize = 1 << 21;
@@ -66,6 +67,8 @@ impl<'a> Listed<'a> {
 pub struct Drawn<'a> {
     /// The method that grouped the frame's fragments.
     pub method: Method,
+    /// Where the still is seen from, world space, metres.
+    pub eye: DVec3,
     /// The frame, with its grids where they lay.
     pub plan: &'a FramePlan,
     /// The lights of the frame.
@@ -128,7 +131,9 @@ impl Drawn<'_> {
             }
             _ => {
                 let pose = grid.relative_to(self.plan.origin()).pose;
-                extend(lines, outline(grid, cells).map(|ends| shapes::line(&pose, ends, tint)));
+                let eye = grid.pose.inverse_transform_point(self.eye);
+                let edges = Cells { grid, indices: cells }.outline(eye);
+                extend(lines, edges.map(|ends| shapes::line(&pose, ends, tint)));
             }
         }
     }

@@ -133,9 +133,11 @@ fn paint(onlooker: &Onlooker, inputs: &Inputs, session: &mut Session, run: &Plan
         Ok(())
     };
     let frame = count_frame(&mut engine, session, (plan, lights), about, &mut keep)?;
+    let eye = onlooker.eye(&frame.pixels, &session.scene)?;
     let listed = Listed::of(&frame.counts.clusterings, &lists);
     let drawn = Drawn {
         method: run.method,
+        eye: eye.eye(),
         plan,
         lights: lights.list,
         detail: config.mesh_detail[0],
@@ -145,7 +147,8 @@ fn paint(onlooker: &Onlooker, inputs: &Inputs, session: &mut Session, run: &Plan
     };
     let lines = drawn.lines(&onlooker.show)?;
     let light = onlooker.show.light.map(|light| ShownLight::new(light, lights.list, &listed));
-    let Seen { image, pixels } = onlooker.look(session, &mut engine, &mode, (frame.pixels, &lines))?;
+    let Seen { image, pixels } =
+        onlooker.look(session, &mut engine, (&mode, &eye), (frame.pixels, &lines))?;
     let tables = engine.octree().filter(|_| onlooker.show.hash).map_or_else(Vec::new, hash_tables::pictures);
     Ok(Still { view: pixels.name.clone(), image, pixels, counts: frame.counts, tables, light })
 }

@@ -42,7 +42,7 @@ pub struct Seen {
 }
 
 impl Onlooker<'_> {
-    /// Looks at the frame that `engine`, made for `mode`, counted last; `shaded` are its views,
+    /// Looks from `eye` at the frame that `engine`, made for `mode`, counted last; `shaded` are its views,
     /// `lines`, relative to its origin, lie over the picture.
     ///
     /// # Errors
@@ -51,20 +51,22 @@ impl Onlooker<'_> {
         &self,
         session: &mut Session,
         engine: &mut Engine,
-        mode: &Mode,
+        (mode, eye): (&Mode, &View),
         (shaded, lines): (Vec<ViewPixels>, &[Line]),
     ) -> Result<Seen> {
         let pipelines = session.store.debug(&engine::variant(self.run, mode))?;
         engine.bind(session, &pipelines.all)?;
-        let eye = self.eye(&shaded, &session.scene)?;
-        let layers = self.layers(session, engine, (&pipelines, &eye), (shaded, lines))?;
-        let empty = self.empty_pixels(&eye);
+        let layers = self.layers(session, engine, (&pipelines, eye), (shaded, lines))?;
+        let empty = self.empty_pixels(eye);
         let (image, pixels) = compose::compose(&self.show, &layers, &self.plan.grids, empty);
         Ok(Seen { image, pixels })
     }
 
-    /// Where the camera is, world space.
-    fn eye(&self, shaded: &[ViewPixels], scene: &GpuScene) -> Result<View> {
+    /// The camera in the world; `shaded` are the frame's views.
+    ///
+    /// # Errors
+    /// A resolution of zero.
+    pub fn eye(&self, shaded: &[ViewPixels], scene: &GpuScene) -> Result<View> {
         let views = &self.plan.views;
         match self.camera {
             Camera::View(view) => Ok(views[view]),

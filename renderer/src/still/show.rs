@@ -29,7 +29,7 @@ pub enum Item {
     /// What the G-buffer of deferred shading holds, side by side: base colours, normals (their axes as red, green and blue) and
     /// depth (white nearest).
     Gbuffer,
-    /// Clusters with any light, as the lines on the surface of what they fill (blue).
+    /// Clusters with any light, as the lines on the surface of what they fill, where it faces the camera (blue).
     UsedClusters,
     /// Clusters that have the light of --light, as such lines (yellow).
     LightClusters,
