@@ -190,6 +190,6 @@ fn described(light: &ShownLight) -> String {
     let kind = direction
         .map_or_else(|| "a point".to_owned(), |[x, y, z]| format!("a spot towards ({x:.2}, {y:.2}, {z:.2})"));
     format!(
-        "light {number}: {kind} at ({x:.2}, {y:.2}, {z:.2}) m that reaches {radius:.2} m, in {clusters} clusters"
+        "light {number}: {kind} at ({x:.2}, {y:.2}, {z:.2}) m that reaches {radius:.2} m; clusters that have it: {clusters}"
     )
 }

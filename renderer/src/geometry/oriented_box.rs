@@ -97,6 +97,15 @@ mod tests {
     }
 
     #[test]
+    fn a_box_has_the_corners_that_its_matrix_makes() {
+        let matrix = matrix([1.0, 2.0, 0.5], [0.5, 0.7, -0.2], [3.0, 2.0, 1.0]);
+        let found = OrientedBox::of(&matrix, BOX).unwrap().corners();
+        for (found, expected) in found.into_iter().zip(corners()) {
+            assert!(found.distance(matrix.transform_point3(expected)) < 1e-9, "{found}");
+        }
+    }
+
+    #[test]
     fn what_shears_makes_no_box() {
         let sheared =
             matrix([1.0, 3.0, 1.0], [0.0; 3], [0.0; 3]) * matrix([1.0; 3], [0.5, 0.7, 0.0], [0.0; 3]);

@@ -1,11 +1,12 @@
 //! Stills: one frame of one method, looked at from any camera, with what explains it drawn over it (Gelderen figures
-//! 1.1, 4.8 and 5.1).
+//! 1.1, 4.8 and 5.1; Örtegren figures 4.10 to 4.12, 5.7, 5.12 and 5.13).
 //!
 //! The frame is rendered and counted as in a replay, from the recording's own views. The camera of the still comes
 //! after that and only looks: it finds clusters by world position in the grids as they are.
 //!
 //! ```text
-//! frame (as replayed) ─> counts
+//! frame (as replayed) ─> counts, lists
+//!    ├─> lines ────────────────────────────┐
 //!    └─> camera: depth, clay, pixel_clusters[c], overlay, (gbuffer) ─> compose ─> PNG, EXR
 //! ```
 

@@ -161,6 +161,72 @@ fn an_octree_is_shown_by_its_leaves_and_by_its_tables() {
 }
 
 #[test]
+fn the_clusters_of_each_light_add_up_to_what_lists_hold() {
+    for (method, lists) in
+        [("raster-24-12-32-e", "linked-32-unsorted"), ("sc-e-48-40", "fixed-4"), ("m", "offsets")]
+    {
+        // Far enough for some geometry, wherever they are.
+        let lights = vec![Lighting { intensity: 1000.0, ..Lighting::with_count(2) }];
+        let config = Config { lights, lists: vec![lists.parse().unwrap()], ..config("bistro", method) };
+        let inputs = Inputs::load(&config).unwrap();
+        let stills = [0, 1].map(|light| {
+            let show = Show::from_items(&[Item::LightClusters], Some(light)).unwrap();
+            render(&inputs, &planned_runs(&config)[0], Viewpoint::Named(None), &show).unwrap()
+        });
+        let clusters = stills.each_ref().map(|still| still.light.as_ref().unwrap().clusters);
+        let listed = stills[0].counts.light_indices();
+        assert!(
+            listed > 0 && clusters.iter().sum::<u64>() == listed,
+            "{method}, {lists}: {clusters:?} of {listed}"
+        );
+    }
+}
+
+/// The pixels that differ from the one in the corner: least and greatest x and y.
+fn drawn(image: &RgbImage) -> Option<[u32; 4]> {
+    let background = image.get_pixel(0, 0);
+    let drawn = image.enumerate_pixels().filter(|(.., pixel)| *pixel != background);
+    let places = drawn.map(|(x, y, _)| [x, y, x, y]);
+    places.reduce(|a, b| [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])])
+}
+
+/// From beside the camera, without the scene: what is drawn of clusters reaches around the mesh that is rasterised to them.
+#[test]
+fn the_clusters_of_a_light_are_drawn_around_its_mesh() {
+    const SPOT: u32 = 113;
+    let config = Config {
+        scene: "hall".into(),
+        spots: 0.5.try_into().unwrap(),
+        lights: vec![Lighting { intensity: 5.5, ..Lighting::with_count(SPOT + 1) }],
+        resolution: [192, 96],
+        frames: FrameRange { first: 0, end: Some(1), step: 1 },
+        ..config("aisle", "raster-24-12-64-e")
+    };
+    let inputs = Inputs::load(&config).unwrap();
+    let beside = Viewpoint::Placed(Placed::new([0.0, 3.0, 14.0], [-2.0, 2.6, 2.2], None).unwrap());
+    let shown = |item: Option<Item>, light| {
+        let items: Vec<_> = item.into_iter().chain([Item::NoScene]).collect();
+        let show = Show::from_items(&items, light).unwrap();
+        render(&inputs, &planned_runs(&config)[0], beside, &show).unwrap()
+    };
+    let nothing = shown(None, None);
+    assert_eq!(drawn(&nothing.image), None, "without the scene there are lines alone");
+    let [mesh, cells] = [Item::LightMesh, Item::LightClusters].map(|item| shown(Some(item), Some(SPOT)));
+    let apex = mesh.light.as_ref().unwrap().position.map(f64::from).into();
+    let (x, y) = pixel_of(&mesh, apex).unwrap();
+    assert_ne!(mesh.image.get_pixel(x, y), nothing.image.get_pixel(x, y), "the apex of the spot is drawn");
+    let [mesh, cells, used] =
+        [mesh, cells, shown(Some(Item::UsedClusters), None)].map(|still| drawn(&still.image).unwrap());
+    // A line is two pixels wide.
+    let holds = |outer: [u32; 4], inner: [u32; 4]| {
+        (0..2).all(|at| outer[at] <= inner[at] + 1 && outer[at + 2] + 1 >= inner[at + 2])
+    };
+    assert!(mesh[2] - mesh[0] > 20 && mesh[3] - mesh[1] > 20, "{mesh:?}");
+    assert!(holds(cells, mesh) && !holds(mesh, cells), "{cells:?} around {mesh:?}");
+    assert!(holds(used, cells) && !holds(cells, used), "{used:?} around {cells:?}");
+}
+
+#[test]
 fn what_cannot_be_shown_is_refused_before_the_device_is_asked() {
     let config = config("bistro", "all-lights");
     let inputs = Inputs::load(&config).unwrap();
@@ -171,6 +237,8 @@ fn what_cannot_be_shown_is_refused_before_the_device_is_asked() {
     };
     assert!(refused(None, &[Item::Clusters]).contains("all-lights has no clusters"));
     assert!(refused(Some("left"), &[Item::Frusta]).contains("birdseye"));
+    assert!(refused(None, &[Item::UsedClusters]).contains("all-lights has no clusters"));
+    assert!(refused(None, &[Item::LightMesh]).contains("all-lights rasterises no meshes"));
 }
 
 #[test]
