@@ -26,9 +26,10 @@ struct Side {
 }
 
 impl Cells<'_> {
-    /// The edges of those sides between the cells and others that face an eye (clustering space), each once: ends in clustering
+    /// The edges of those sides between the cells and others that face an eye (world space, metres), each once: ends in clustering
     /// space, metres, by ascending place in the lattice.
     pub fn outline(self, eye: DVec3) -> impl Iterator<Item = (DVec3, DVec3)> {
+        let eye = self.grid.pose.inverse_transform_point(eye);
         let cells = self.indices.iter().map(|&index| self.grid.cluster_at(index));
         let facing = |&(cell, side): &([u32; 3], Side)| self.faces(cell, side, eye);
         let sides = cells.flat_map(|cell| self.free_sides(cell).map(move |side| (cell, side)));
@@ -97,6 +98,7 @@ mod tests {
     use super::*;
     use crate::geometry::views::Pose;
     use crate::geometry::{ClusterSpace, Frustum};
+    use glam::DQuat;
 
     const BEYOND: DVec3 = DVec3::splat(100.0);
 
@@ -106,16 +108,21 @@ mod tests {
         Grid { pose: Pose::IDENTITY, space, dimensions: [4; 3] }
     }
 
-    /// Each tile 1 wide and high in tangents, slices from 1, 2, 4 and 8 m on.
+    /// Each tile 1 wide and high in tangents, slices from 1, 2, 4 and 8 m on; somewhere in the world.
     fn tiles() -> Grid {
         let frustum = Frustum { x0: -2.0, x1: 2.0, y0: -2.0, y1: 2.0, z0: -16.0, z1: -1.0 };
-        Grid { space: ClusterSpace::geometric(frustum, 1.0), ..cubes() }
+        let pose = Pose {
+            rotation: DQuat::from_rotation_y(2.0),
+            ..Pose::from_position(DVec3::new(70.0, -9.0, 4.0))
+        };
+        Grid { pose, space: ClusterSpace::geometric(frustum, 1.0), dimensions: [4; 3] }
     }
 
+    /// What is seen from a place in clustering space.
     fn edges(grid: &Grid, cells: &[[u32; 3]], eye: DVec3) -> Vec<(DVec3, DVec3)> {
         let mut indices: Vec<u32> = cells.iter().map(|cell| grid.linear(*cell)).collect();
         indices.sort_unstable();
-        Cells { grid, indices: &indices }.outline(eye).collect()
+        Cells { grid, indices: &indices }.outline(grid.pose.transform_point(eye)).collect()
     }
 
     fn count(cells: &[[u32; 3]], eye: DVec3) -> usize {

@@ -131,8 +131,7 @@ impl Drawn<'_> {
             }
             _ => {
                 let pose = grid.relative_to(self.plan.origin()).pose;
-                let eye = grid.pose.inverse_transform_point(self.eye);
-                let edges = Cells { grid, indices: cells }.outline(eye);
+                let edges = Cells { grid, indices: cells }.outline(self.eye);
                 extend(lines, edges.map(|ends| shapes::line(&pose, ends, tint)));
             }
         }

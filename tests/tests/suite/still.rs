@@ -10,6 +10,7 @@ use manylight::output::planned_runs;
 use manylight::shading::{Shading, ShadingPipeline};
 use manylight::still::{Item, Look, Placed, Show, Still, Viewpoint, render};
 use manylight_tests::run;
+use manylight_tests::scenes::{recording, write_quads};
 
 const FRAME: u32 = 300;
 
@@ -224,6 +225,37 @@ fn the_clusters_of_a_light_are_drawn_around_its_mesh() {
     assert!(mesh[2] - mesh[0] > 20 && mesh[3] - mesh[1] > 20, "{mesh:?}");
     assert!(holds(cells, mesh) && !holds(mesh, cells), "{cells:?} around {mesh:?}");
     assert!(holds(used, cells) && !holds(cells, used), "{used:?} around {cells:?}");
+}
+
+/// What clusters hold over a floor somewhere in the world.
+fn lines_at(away: DVec3) -> RgbImage {
+    let directory = tempfile::tempdir().unwrap();
+    let path = |name: &str| directory.path().join(name);
+    let at = |x: f64, y: f64, z: f64| (away + DVec3::new(x, y, z)).to_array();
+    let floor = [[-9.0, 0.0, 3.0], [9.0, 0.0, 3.0], [9.0, 0.0, -15.0], [-9.0, 0.0, -15.0]];
+    write_quads(&path("s.gltf"), &[floor], away.to_array(), &[]);
+    let [x, y, z] = at(0.0, 1.0, 2.0);
+    let rain_box = [at(-5.0, 0.0, -12.0), at(5.0, 4.0, -2.0)];
+    let recording = recording([0.125, 32.0], [x, y, z, 0.0, 0.0, 0.0, 1.0, 1.3], rain_box, &[]);
+    std::fs::write(path("r.json"), recording.to_string()).unwrap();
+    let config = Config {
+        scene: path("s.gltf").to_str().unwrap().into(),
+        lights: vec![Lighting { count: 6, intensity: 2.0, cutoff: 0.5, r0: 0.01 }],
+        frames: FrameRange { first: 0, end: Some(1), step: 1 },
+        ..config(path("r.json").to_str().unwrap(), "raster-24-12-32-e")
+    };
+    let placed = Placed::new(at(9.0, 7.0, 6.0), at(0.0, 0.0, -7.0), None).unwrap();
+    let items = [Item::UsedClusters, Item::LightMesh, Item::Frusta, Item::NoScene];
+    let inputs = Inputs::load(&config).unwrap();
+    seen_from(&config, &inputs, Viewpoint::Placed(placed), &items).image
+}
+
+#[test]
+fn lines_lie_about_their_frame_wherever_it_is() {
+    let [home, away] = [DVec3::ZERO, DVec3::new(4096.0, 0.0, -8192.0)].map(lines_at);
+    let differ = home.pixels().zip(away.pixels()).filter(|(a, b)| a != b).count();
+    let drawn = home.pixels().filter(|pixel| *pixel != home.get_pixel(0, 0)).count();
+    assert!(drawn > 500 && differ * 20 < drawn, "{differ} of {drawn} pixels differ");
 }
 
 #[test]
