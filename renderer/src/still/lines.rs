@@ -25,7 +25,7 @@ use crate::{Error, Result};
 use glam::DVec3;
 
 /// Most lines of a still.
-const MOST: usize = 1 << 21;
+const MOST: usize = 1 << 22;
 
 /// Clusters with any light: blue.
 const USED: [f32; 3] = [0.1, 0.35, 0.9];
@@ -106,7 +106,7 @@ impl Drawn<'_> {
         }
         if lines.len() > MOST {
             return Err(Error::input(format!(
-                "show: these are more than {MOST} lines: show less at once, take larger clusters or coarser meshes, or name one light \
+                "show: these are more than {MOST} lines: show less at once, take larger clusters or nodes, or coarser meshes, or name one light \
                  by --light"
             )));
         }
