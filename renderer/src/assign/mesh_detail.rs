@@ -29,6 +29,14 @@ impl MeshDetail {
         self.levels().iter().copied().map(MeshKind::Sphere).chain([MeshKind::Spot]).collect()
     }
 
+    /// The level of a point that reaches `radius` metres, `distance` metres from the eye, where tiles are so wide in tangents.
+    pub fn level(&self, radius: f64, distance: f64, tile_width: f64) -> SphereLevel {
+        match self {
+            Self::Level(level) => *level,
+            Self::Auto(part) => SphereLevel::of_detail(radius, distance, part * tile_width),
+        }
+    }
+
     /// How far the meshes of every level but the finest reach beyond their lights, in radii and parts of a tile's width, as a list of
     /// GLSL; `None` where there is one level.
     pub fn glsl_beyond(&self) -> Option<String> {

@@ -6,7 +6,7 @@ use crate::inputs::Inputs;
 use crate::output::{planned_runs, prepare_output, write_exr, write_png};
 use crate::replay::shape_note;
 use crate::still::camera::BIRDSEYE;
-use crate::still::{Item, Placed, Show, Still, TablePicture, Viewpoint, render};
+use crate::still::{Item, Placed, Show, ShownLight, Still, TablePicture, Viewpoint, render};
 use crate::{Error, Result};
 use serde::Serialize;
 use std::fmt;
@@ -42,6 +42,10 @@ pub struct Args {
     #[arg(long, value_enum, value_delimiter = ',', value_name = "ITEMS")]
     show: Vec<Item>,
 
+    /// The light that light-clusters and light-mesh are of: its number, from 0 on.
+    #[arg(long, value_name = "N")]
+    light: Option<u32>,
+
     /// JSON configuration over the built-in defaults; flags go over it.
     #[arg(long, value_name = "FILE.json")]
     config: Option<PathBuf>,
@@ -52,7 +56,7 @@ pub struct Args {
 
 /// Renders the still and writes it as PNG and EXR.
 pub fn run(args: Args, console: &Console) -> Result<()> {
-    let show = Show::from_items(&args.show)?;
+    let show = Show::from_items(&args.show, args.light)?;
     let viewpoint = viewpoint(&args)?;
     let config = configuration(&args)?;
     let run = planned_runs(&config).remove(0);
@@ -145,6 +149,8 @@ struct Written {
     light_indices: u64,
     most_lights: u32,
     most_fragments: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    light: Option<ShownLight>,
 }
 
 impl Written {
@@ -160,6 +166,7 @@ impl Written {
             light_indices: still.counts.light_indices(),
             most_lights: most(&still.pixels.light_count),
             most_fragments: most(&still.pixels.fragment_count),
+            light: still.light.clone(),
         }
     }
 }
@@ -173,6 +180,16 @@ impl fmt::Display for Written {
             "{method}, frame {frame}, seen from {view}: {visible_clusters} visible clusters, {light_indices} light \
              indices; in a pixel's cluster at most {} lights and {} fragments",
             self.most_lights, self.most_fragments
-        )
+        )?;
+        self.light.iter().try_for_each(|light| write!(f, "\n{}", described(light)))
     }
+}
+
+fn described(light: &ShownLight) -> String {
+    let ShownLight { number, position: [x, y, z], direction, radius, clusters } = light;
+    let kind = direction
+        .map_or_else(|| "a point".to_owned(), |[x, y, z]| format!("a spot towards ({x:.2}, {y:.2}, {z:.2})"));
+    format!(
+        "light {number}: {kind} at ({x:.2}, {y:.2}, {z:.2}) m that reaches {radius:.2} m; clusters that have it: {clusters}"
+    )
 }

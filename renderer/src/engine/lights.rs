@@ -8,7 +8,7 @@ use crate::Result;
 use crate::assign::MeshDetail;
 use crate::buffers::BufferName;
 use crate::clustering::{FRAME_SLOTS, SharedBuffer, make_buffer};
-use crate::geometry::{self, LightMesh, LightVolume, SphericalSector, VolumeKind};
+use crate::geometry::{self, LightMesh, VolumeKind};
 use crate::gpu_interface::{LightData, MeshFrame, SpotData};
 use crate::lights::{ConeFalloff, FrameLights, Light, LightTally};
 use crate::pass::BufferCopy;
@@ -194,11 +194,7 @@ impl DeviceLights {
 
 /// What places the mesh around a light in a frame with this origin.
 fn mesh_frame(light: &Light, origin: DVec3) -> MeshFrame {
-    let volume = match light.sector() {
-        None => LightVolume::sphere(light.place() - origin, light.r1.into()),
-        Some(sector) => LightVolume::sector(SphericalSector { apex: sector.apex - origin, ..sector }),
-    };
-    (&geometry::MeshFrame::of(&volume)).into()
+    (&geometry::MeshFrame::of(&light.volume(origin))).into()
 }
 
 /// A light as shaders read it in a frame with this origin.

@@ -39,6 +39,17 @@ impl OrientedBox {
         Self { center, half_extent, axes: DVec3::AXES }
     }
 
+    /// The corners, world space, metres: bit 0, 1 and 2 of the place choose the far side along each axis.
+    pub fn corners(&self) -> [DVec3; 8] {
+        std::array::from_fn(|corner| {
+            let sides = (0..3).map(|axis| {
+                let half = self.axes[axis] * self.half_extent[axis];
+                if corner >> axis & 1 == 0 { -half } else { half }
+            });
+            self.center + sides.sum::<DVec3>()
+        })
+    }
+
     /// How far a point of the world lies from the box, metres; 0 inside.
     pub fn distance(&self, point: DVec3) -> f64 {
         let offset = point - self.center;
@@ -83,6 +94,15 @@ mod tests {
             let pick = |axis: usize| BOX[corner >> axis & 1][axis];
             DVec3::new(pick(0), pick(1), pick(2))
         })
+    }
+
+    #[test]
+    fn a_box_has_the_corners_that_its_matrix_makes() {
+        let matrix = matrix([1.0, 2.0, 0.5], [0.5, 0.7, -0.2], [3.0, 2.0, 1.0]);
+        let found = OrientedBox::of(&matrix, BOX).unwrap().corners();
+        for (found, expected) in found.into_iter().zip(corners()) {
+            assert!(found.distance(matrix.transform_point3(expected)) < 1e-9, "{found}");
+        }
     }
 
     #[test]

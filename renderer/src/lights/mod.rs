@@ -27,7 +27,7 @@ pub use volume::{LatticeBox, LightSet, VolumeRecipe};
 
 use self::rain::Rain;
 use self::spelled::spelled;
-use crate::geometry::SphericalSector;
+use crate::geometry::{LightVolume, SphericalSector};
 use crate::scene::SceneLight;
 use crate::{Error, Result};
 use glam::DVec3;
@@ -71,6 +71,14 @@ impl Light {
     /// What a spot light reaches, world space; `None` of a light that shines all around.
     pub fn sector(&self) -> Option<SphericalSector> {
         self.spot.map(|spot| spot.sector(self.place(), self.r1.into()))
+    }
+
+    /// What the light reaches, in a world whose origin lies at `origin` (world space, metres).
+    pub fn volume(&self, origin: DVec3) -> LightVolume {
+        match self.sector() {
+            None => LightVolume::sphere(self.place() - origin, self.r1.into()),
+            Some(sector) => LightVolume::sector(SphericalSector { apex: sector.apex - origin, ..sector }),
+        }
     }
 
     /// The part of the light that goes through its cone towards a point (world space), 0 to 1 (KHR_lights_punctual).

@@ -1,175 +1,47 @@
 //! Stills: one frame of one method, looked at from any camera, with what explains it drawn over it (Gelderen figures
-//! 1.1, 4.8 and 5.1).
+//! 1.1, 4.8 and 5.1; Örtegren figures 4.10 to 4.12, 5.7, 5.12 and 5.13).
 //!
 //! The frame is rendered and counted as in a replay, from the recording's own views. The camera of the still comes
 //! after that and only looks: it finds clusters by world position in the grids as they are.
 //!
 //! ```text
-//! frame (as replayed) ─> counts
+//! frame (as replayed) ─> counts, lists
+//!    ├─> lines ────────────────────────────┐
 //!    └─> camera: depth, clay, pixel_clusters[c], overlay, (gbuffer) ─> compose ─> PNG, EXR
 //! ```
 
 pub(crate) mod camera;
+mod cells;
 mod compose;
 mod hash_tables;
+mod lines;
 mod look;
+mod meshes;
 mod onlooker;
 mod record;
 mod shapes;
+mod show;
 
 pub use camera::{Placed, Viewpoint};
 pub use hash_tables::TablePicture;
 pub use look::Look;
 pub(crate) use look::look;
+pub use show::{Base, Item, Show};
 
+use crate::Result;
 use crate::config::Config;
 use crate::culling::Culling;
 use crate::engine::{Engine, LargestGrid, Mode, Session, count_frame, plan_frames};
 use crate::inputs::Inputs;
-use crate::lights::LightTally;
-use crate::measure::{FrameCounts, ViewPixels};
-use crate::methods::{Groups, Method, Scenery};
+use crate::lights::{Light, LightTally};
+use crate::measure::{ClusterLists, FrameCounts, ViewPixels};
+use crate::methods::Scenery;
 use crate::output::PlannedRun;
-use crate::shading::ShadingPipeline;
-use crate::{Error, Result};
 use camera::Camera;
-use clap::ValueEnum;
 use image::RgbImage;
+use lines::{Drawn, Listed};
 use onlooker::{Onlooker, Seen};
-
-/// One thing that a still can show.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Item {
-    /// Clusters in three colours, by the sum of their three indices modulo 3; dim where no cluster is visible.
-    Clusters,
-    /// Slices in eight colours, by the three low bits of their index as red, green and blue; dim where no cluster is visible.
-    Slices,
-    /// Frusta of the views (green) and of the clusterings, or their boxes (red).
-    Frusta,
-    /// Influence volumes of the lights.
-    Lights,
-    /// Lights in each pixel's cluster, from black (none) to white (most).
-    LightCount,
-    /// Fragments in each pixel's cluster, from black (none) to white (most).
-    FragmentCount,
-    /// Magenta where no visible cluster exists.
-    Missing,
-    /// Leaves of the octree that hold lights, of each depth in its own colour.
-    Octree,
-    /// Beside the picture, one of the hash tables of each depth of the octree: slots that are taken, offsets as colours.
-    Hash,
-    /// What the G-buffer of deferred shading holds, side by side: base colours, normals (their axes as red, green and blue) and
-    /// depth (white nearest).
-    Gbuffer,
-}
-
-/// What the surfaces of a still show.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Base {
-    /// What was shaded; surfaces as under a lamp where the camera is none of the recording's.
-    #[default]
-    Picture,
-    /// Clusters in three colours.
-    Clusters,
-    /// Slices in eight colours.
-    Slices,
-    /// A heat map of lights.
-    LightCount,
-    /// A heat map of fragments.
-    FragmentCount,
-    /// What a G-buffer holds, side by side.
-    Gbuffer,
-}
-
-/// All that a still shows.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Show {
-    /// What surfaces show.
-    pub base: Base,
-    /// Lines of frusta and boxes.
-    pub frusta: bool,
-    /// Whether volumes of lights are shown.
-    pub lights: bool,
-    /// Magenta where there is no cluster.
-    pub missing: bool,
-    /// Lines of the octree's leaves.
-    pub octree: bool,
-    /// Whether the octree's tables are pictured too.
-    pub hash: bool,
-}
-
-impl Show {
-    /// Puts items together.
-    ///
-    /// # Errors
-    /// Items that exclude each other.
-    pub fn from_items(items: &[Item]) -> Result<Self> {
-        let mut show = Self::default();
-        for item in items {
-            let base = match item {
-                Item::Clusters => Base::Clusters,
-                Item::Slices => Base::Slices,
-                Item::LightCount => Base::LightCount,
-                Item::FragmentCount => Base::FragmentCount,
-                Item::Gbuffer => Base::Gbuffer,
-                Item::Frusta => {
-                    show.frusta = true;
-                    continue;
-                }
-                Item::Lights => {
-                    show.lights = true;
-                    continue;
-                }
-                Item::Missing => {
-                    show.missing = true;
-                    continue;
-                }
-                Item::Octree => {
-                    show.octree = true;
-                    continue;
-                }
-                Item::Hash => {
-                    show.hash = true;
-                    continue;
-                }
-            };
-            if show.base != Base::Picture && show.base != base {
-                return Err(Error::input(
-                    "show: clusters, slices, light-count, fragment-count and gbuffer exclude each other: choose one of them",
-                ));
-            }
-            show.base = base;
-        }
-        if show.base == Base::Gbuffer && (show.frusta || show.lights || show.missing) {
-            return Err(Error::input("show: gbuffer is shown by itself: leave the others out"));
-        }
-        Ok(show)
-    }
-
-    /// Refuses what a method without clusters, or without an octree, or a pipeline without a G-buffer, cannot show.
-    fn check(&self, method: &Method, pipeline: ShadingPipeline) -> Result<()> {
-        if self.base == Base::Gbuffer && pipeline == ShadingPipeline::Forward {
-            return Err(Error::input(
-                "show: forward shading has no G-buffer: add --pipeline deferred, or leave gbuffer out",
-            ));
-        }
-        let of_groups = !matches!(self.base, Base::Picture | Base::Gbuffer) || self.missing;
-        let of_cells = matches!(self.base, Base::Clusters | Base::Slices) || self.missing;
-        match method.kind().groups {
-            Groups::Nothing if of_groups => Err(Error::input(format!(
-                "show: {method} has no clusters: choose a clustered method, or show frusta and lights alone"
-            ))),
-            Groups::Leaves if of_cells => Err(Error::input(format!(
-                "show: {method} has leaves of an octree, not clusters: choose a clustered method, or show octree, light-count or \
-                 fragment-count"
-            ))),
-            Groups::Nothing | Groups::Cells(_) if self.octree || self.hash => Err(Error::input(format!(
-                "show: {method} has no octree: choose a method such as hashed-0.5-3, or leave octree and hash out"
-            ))),
-            _ => Ok(()),
-        }
-    }
-}
+use serde::Serialize;
 
 /// A finished still.
 pub struct Still {
@@ -183,6 +55,32 @@ pub struct Still {
     pub counts: FrameCounts,
     /// Pictures of the octree's tables, by depth, where they are shown.
     pub tables: Vec<TablePicture>,
+    /// The light that clusters or mesh are shown of.
+    pub light: Option<ShownLight>,
+}
+
+/// A light, and where it is listed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ShownLight {
+    /// Its number among the frame's lights, from 0.
+    pub number: u32,
+    /// Place of the light in the world, metres.
+    pub position: [f32; 3],
+    /// Where a spot light shines, a unit vector.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub direction: Option<[f32; 3]>,
+    /// How far it reaches, metres.
+    pub radius: f32,
+    /// How many clusters have it, of all clusterings.
+    pub clusters: u64,
+}
+
+impl ShownLight {
+    fn new(number: u32, lights: &[Light], listed: &[Listed]) -> Self {
+        let Light { position, r1: radius, spot, .. } = lights[number as usize];
+        let clusters = listed.iter().map(|listed| listed.with(number).len() as u64).sum();
+        Self { number, position, direction: spot.map(|spot| spot.direction), radius, clusters }
+    }
 }
 
 /// Renders the first frame of `run` and looks at it from `viewpoint`.
@@ -191,6 +89,7 @@ pub struct Still {
 /// Bad input, a camera that is not known, something that the method cannot show, and whatever fails on the device.
 pub fn render(inputs: &Inputs, run: &PlannedRun, viewpoint: Viewpoint, show: &Show) -> Result<Still> {
     show.check(&run.method, run.config.pipeline[0])?;
+    show.check_light(inputs.light_tally(&run.lights)?.count)?;
     let config = &drawn_plainly(&run.config);
     let plans = plan_frames(config, &inputs.recording)?;
     let plan = &plans[0];
@@ -229,42 +128,28 @@ fn paint(onlooker: &Onlooker, inputs: &Inputs, session: &mut Session, run: &Plan
     let onlooker = Onlooker { plan, ..*onlooker };
     let mut engine = Engine::new(session, config, LargestGrid::of(std::slice::from_ref(plan)), mode)?;
     let about = (inputs.recording.time(plan.frame), Some(names));
-    let mut no_lists = |_| Ok(());
-    let frame = count_frame(&mut engine, session, (plan, lights), about, &mut no_lists)?;
-    let Seen { image, pixels } = onlooker.look(session, &mut engine, &mode, frame.pixels)?;
+    let (mut lists, wanted) = (vec![], onlooker.show.needs_lists());
+    let mut keep = |of_clustering: ClusterLists| {
+        lists.extend(wanted.then_some(of_clustering));
+        Ok(())
+    };
+    let frame = count_frame(&mut engine, session, (plan, lights), about, &mut keep)?;
+    let eye = onlooker.eye(&frame.pixels, &session.scene)?;
+    let listed = Listed::of(&frame.counts.clusterings, &lists);
+    let drawn = Drawn {
+        method: run.method,
+        eye: eye.eye(),
+        plan,
+        lights: lights.list,
+        detail: config.mesh_detail[0],
+        listed: &listed,
+        octree: engine.octree(),
+        scene: (&inputs.scene, &session.batches),
+    };
+    let lines = drawn.lines(&onlooker.show)?;
+    let light = onlooker.show.light.map(|light| ShownLight::new(light, lights.list, &listed));
+    let Seen { image, pixels } =
+        onlooker.look(session, &mut engine, (&mode, &eye), (frame.pixels, &lines))?;
     let tables = engine.octree().filter(|_| onlooker.show.hash).map_or_else(Vec::new, hash_tables::pictures);
-    Ok(Still { view: pixels.name.clone(), image, pixels, counts: frame.counts, tables })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn items_add_up_unless_they_exclude_each_other() {
-        let show = Show::from_items(&[Item::Clusters, Item::Frusta, Item::Missing]).unwrap();
-        assert_eq!(show, Show { base: Base::Clusters, frusta: true, missing: true, ..Show::default() });
-        assert!(Show::from_items(&[Item::Clusters, Item::LightCount]).is_err());
-        assert!(Show::from_items(&[Item::Clusters, Item::Slices]).is_err());
-        let forward = ShadingPipeline::Forward;
-        assert!(show.check(&Method::AllLights, forward).is_err());
-        let hashed: Method = "hashed-0.5-3".parse().unwrap();
-        let leaves = Show::from_items(&[Item::LightCount, Item::Octree, Item::Hash]).unwrap();
-        assert!(leaves.check(&hashed, forward).is_ok() && show.check(&hashed, forward).is_err());
-        assert!(leaves.check(&"indi-persp-64".parse().unwrap(), forward).is_err());
-        assert!(Show::from_items(&[Item::Octree]).unwrap().check(&Method::AllLights, forward).is_err());
-        assert!(
-            Show::from_items(&[Item::Frusta, Item::Lights])
-                .unwrap()
-                .check(&Method::AllLights, forward)
-                .is_ok()
-        );
-        let check = |show: &Show, pipeline| show.check(&Method::AllLights, pipeline).is_ok();
-        assert!(!check(&show, ShadingPipeline::Deferred));
-        let lights = Show::from_items(&[Item::Frusta, Item::Lights]).unwrap();
-        assert!(check(&lights, ShadingPipeline::Forward));
-        let gbuffer = Show::from_items(&[Item::Gbuffer]).unwrap();
-        assert!(check(&gbuffer, ShadingPipeline::Deferred) && !check(&gbuffer, ShadingPipeline::Forward));
-        assert!(Show::from_items(&[Item::Lights, Item::Gbuffer]).is_err());
-    }
+    Ok(Still { view: pixels.name.clone(), image, pixels, counts: frame.counts, tables, light })
 }

@@ -3,11 +3,10 @@
 use super::camera::{self, Camera};
 use super::compose::{self, Layers};
 use super::record::{self, Drawing, Outputs};
-use super::{Base, Show, shapes};
+use super::{Base, Show};
 use crate::clustering::view_data;
 use crate::config::Config;
 use crate::engine::{COUNTING_SLOT as SLOT, Engine, FramePlan, Mode, Session};
-use crate::geometry::Grid;
 use crate::geometry::views::View;
 use crate::gpu_interface::PixelData;
 use crate::gpu_scene::GpuScene;
@@ -17,7 +16,6 @@ use crate::pipelines::{DebugPipelines, Line};
 use crate::vk::{Buffer, Memory};
 use crate::{Result, engine};
 use ash::vk;
-use glam::DVec3;
 use half::f16;
 use image::RgbImage;
 
@@ -44,7 +42,8 @@ pub struct Seen {
 }
 
 impl Onlooker<'_> {
-    /// Looks at the frame that `engine`, made for `mode`, counted last; `shaded` are its views.
+    /// Looks from `eye` at the frame that `engine`, made for `mode`, counted last; `shaded` are its views,
+    /// `lines`, relative to its origin, lie over the picture.
     ///
     /// # Errors
     /// Whatever fails on the device.
@@ -52,20 +51,22 @@ impl Onlooker<'_> {
         &self,
         session: &mut Session,
         engine: &mut Engine,
-        mode: &Mode,
-        shaded: Vec<ViewPixels>,
+        (mode, eye): (&Mode, &View),
+        (shaded, lines): (Vec<ViewPixels>, &[Line]),
     ) -> Result<Seen> {
         let pipelines = session.store.debug(&engine::variant(self.run, mode))?;
         engine.bind(session, &pipelines.all)?;
-        let eye = self.eye(&shaded, &session.scene)?;
-        let layers = self.layers(session, engine, (&pipelines, &eye), shaded)?;
-        let empty = self.empty_pixels(&eye);
+        let layers = self.layers(session, engine, (&pipelines, eye), (shaded, lines))?;
+        let empty = self.empty_pixels(eye);
         let (image, pixels) = compose::compose(&self.show, &layers, &self.plan.grids, empty);
         Ok(Seen { image, pixels })
     }
 
-    /// Where the camera is, world space.
-    fn eye(&self, shaded: &[ViewPixels], scene: &GpuScene) -> Result<View> {
+    /// The camera in the world; `shaded` are the frame's views.
+    ///
+    /// # Errors
+    /// A resolution of zero.
+    pub fn eye(&self, shaded: &[ViewPixels], scene: &GpuScene) -> Result<View> {
         let views = &self.plan.views;
         match self.camera {
             Camera::View(view) => Ok(views[view]),
@@ -87,7 +88,7 @@ impl Onlooker<'_> {
         session: &mut Session,
         engine: &mut Engine,
         (pipelines, eye): (&DebugPipelines, &View),
-        mut shaded: Vec<ViewPixels>,
+        (mut shaded, lines): (Vec<ViewPixels>, &[Line]),
     ) -> Result<Layers> {
         let grouped = engine.method().has_lists();
         let origin = self.plan.origin();
@@ -105,14 +106,11 @@ impl Onlooker<'_> {
                 (0, 1, all)
             }
         };
-        let mut lines = if self.show.frusta { self.frusta(origin) } else { vec![] };
-        if let Some(octree) = engine.octree().filter(|_| self.show.octree) {
-            lines.extend(shapes::leaves(octree, origin));
+        if self.show.no_scene {
+            session.frame_slots[SLOT].draw_lists[view].update(&session.batches, &[]);
         }
         let line_buffer = (!lines.is_empty())
-            .then(|| {
-                Buffer::with_data(&session.context, "lines", vk::BufferUsageFlags::VERTEX_BUFFER, &lines)
-            })
+            .then(|| Buffer::with_data(&session.context, "lines", vk::BufferUsageFlags::VERTEX_BUFFER, lines))
             .transpose()?;
         let [color_bytes, pixel_bytes] = pixel_maps::view_bytes(self.run.resolution);
         let readback = |size| {
@@ -147,18 +145,11 @@ impl Onlooker<'_> {
             clusterings.clear();
         }
         let shaded = match self.camera {
-            Camera::View(view) => Some(shaded.swap_remove(view).color),
-            Camera::BirdsEye | Camera::Placed(_) => None,
+            Camera::View(view) if !self.show.no_scene => Some(shaded.swap_remove(view).color),
+            Camera::View(_) | Camera::BirdsEye | Camera::Placed(_) => None,
         };
         let gbuffer = gbuffer.as_ref().map(|parts| parts.each_ref().map(color));
         Ok(Layers { shaded, clay: color(&clay), overlay: color(&overlay), clusterings, distance, gbuffer })
-    }
-
-    /// The frame's frusta and boxes, relative to its origin.
-    fn frusta(&self, origin: DVec3) -> Vec<Line> {
-        let views: Vec<View> = self.plan.views.iter().map(|view| view.relative_to(origin)).collect();
-        let grids: Vec<Grid> = self.plan.grids.iter().map(|grid| grid.relative_to(origin)).collect();
-        shapes::frusta(&views, &grids)
     }
 
     fn pixel_count(&self) -> usize {

@@ -66,11 +66,13 @@ fn hue(above: u32) -> [f32; 3] {
     })
 }
 
-fn edges(lines: &mut Vec<Line>, pose: &Pose, corners: &[DVec3; 8], tint: [f32; 3]) {
+/// The edges of a box, or of a frustum, by its corners in the space of `pose`, metres.
+pub fn edges(lines: &mut Vec<Line>, pose: &Pose, corners: &[DVec3; 8], tint: [f32; 3]) {
     lines.extend(EDGES.iter().map(|&(a, b)| line(pose, (corners[a], corners[b]), tint)));
 }
 
-fn line(pose: &Pose, (from, to): (DVec3, DVec3), tint: [f32; 3]) -> Line {
+/// A line between two places in the space of `pose`, metres.
+pub fn line(pose: &Pose, (from, to): (DVec3, DVec3), tint: [f32; 3]) -> Line {
     let world = |point| pose.transform_point(point).as_vec3().to_array();
     Line { from: world(from), to: world(to), tint }
 }

@@ -106,9 +106,14 @@ fn a_still_is_written_as_png_and_exr() {
     }
     succeed(&mut still(&["--eye", "-9,1.8,9", "--target", "-4,3,-8", "--fov", "1.4", "--validate"]));
     assert!(out.path().join("000300_encl-ortho-4_eye.png").is_file());
+    let written = succeed(&mut still(&["--show", "used-clusters,light-clusters", "--light", "7"]));
+    assert!(String::from_utf8_lossy(&written.stdout).contains("light 7: a point at ("));
     for (args, expected) in [
         (&["--runs", "2"][..], "--runs"),
         (&["--view", "above"], "birdseye"),
+        (&["--show", "light-clusters"], "--light N"),
+        (&["--show", "light-clusters", "--light", "100"], "there is no light 100"),
+        (&["--light", "7"], "--show light-clusters"),
         (&["--show", "clusters,light-count"], "exclude each other"),
         (&["--show", "gbuffer"], "--pipeline deferred"),
         (&["--pipeline", "deferred", "--msaa", "4", "--marking", "geometry"], "no sample need lie"),

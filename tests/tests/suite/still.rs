@@ -10,6 +10,7 @@ use manylight::output::planned_runs;
 use manylight::shading::{Shading, ShadingPipeline};
 use manylight::still::{Item, Look, Placed, Show, Still, Viewpoint, render};
 use manylight_tests::run;
+use manylight_tests::scenes::{recording, write_quads};
 
 const FRAME: u32 = 300;
 
@@ -31,7 +32,7 @@ fn still(config: &Config, inputs: &Inputs, view: Option<&str>, items: &[Item]) -
 }
 
 fn seen_from(config: &Config, inputs: &Inputs, viewpoint: Viewpoint, items: &[Item]) -> Still {
-    let show = Show::from_items(items).unwrap();
+    let show = Show::from_items(items, None).unwrap();
     render(inputs, &planned_runs(config)[0], viewpoint, &show).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -161,16 +162,115 @@ fn an_octree_is_shown_by_its_leaves_and_by_its_tables() {
 }
 
 #[test]
+fn the_clusters_of_each_light_add_up_to_what_lists_hold() {
+    for (method, lists) in
+        [("raster-24-12-32-e", "linked-32-unsorted"), ("sc-e-48-40", "fixed-4"), ("m", "offsets")]
+    {
+        // Far enough for some geometry, wherever they are.
+        let lights = vec![Lighting { intensity: 1000.0, ..Lighting::with_count(2) }];
+        let config = Config { lights, lists: vec![lists.parse().unwrap()], ..config("bistro", method) };
+        let inputs = Inputs::load(&config).unwrap();
+        let stills = [0, 1].map(|light| {
+            let show = Show::from_items(&[Item::LightClusters], Some(light)).unwrap();
+            render(&inputs, &planned_runs(&config)[0], Viewpoint::Named(None), &show).unwrap()
+        });
+        let clusters = stills.each_ref().map(|still| still.light.as_ref().unwrap().clusters);
+        let listed = stills[0].counts.light_indices();
+        assert!(
+            listed > 0 && clusters.iter().sum::<u64>() == listed,
+            "{method}, {lists}: {clusters:?} of {listed}"
+        );
+    }
+}
+
+/// The pixels that differ from the one in the corner: least and greatest x and y.
+fn drawn(image: &RgbImage) -> Option<[u32; 4]> {
+    let background = image.get_pixel(0, 0);
+    let drawn = image.enumerate_pixels().filter(|(.., pixel)| *pixel != background);
+    let places = drawn.map(|(x, y, _)| [x, y, x, y]);
+    places.reduce(|a, b| [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])])
+}
+
+/// From beside the camera, without the scene: what is drawn of clusters reaches around the mesh that is rasterised to them.
+#[test]
+fn the_clusters_of_a_light_are_drawn_around_its_mesh() {
+    const SPOT: u32 = 113;
+    let config = Config {
+        scene: "hall".into(),
+        spots: 0.5.try_into().unwrap(),
+        lights: vec![Lighting { intensity: 5.5, ..Lighting::with_count(SPOT + 1) }],
+        resolution: [192, 96],
+        frames: FrameRange { first: 0, end: Some(1), step: 1 },
+        ..config("aisle", "raster-24-12-64-e")
+    };
+    let inputs = Inputs::load(&config).unwrap();
+    let beside = Viewpoint::Placed(Placed::new([0.0, 3.0, 14.0], [-2.0, 2.6, 2.2], None).unwrap());
+    let shown = |item: Option<Item>, light| {
+        let items: Vec<_> = item.into_iter().chain([Item::NoScene]).collect();
+        let show = Show::from_items(&items, light).unwrap();
+        render(&inputs, &planned_runs(&config)[0], beside, &show).unwrap()
+    };
+    let nothing = shown(None, None);
+    assert_eq!(drawn(&nothing.image), None, "without the scene there are lines alone");
+    let [mesh, cells] = [Item::LightMesh, Item::LightClusters].map(|item| shown(Some(item), Some(SPOT)));
+    let apex = mesh.light.as_ref().unwrap().position.map(f64::from).into();
+    let (x, y) = pixel_of(&mesh, apex).unwrap();
+    assert_ne!(mesh.image.get_pixel(x, y), nothing.image.get_pixel(x, y), "the apex of the spot is drawn");
+    let [mesh, cells, used] =
+        [mesh, cells, shown(Some(Item::UsedClusters), None)].map(|still| drawn(&still.image).unwrap());
+    // A line is two pixels wide.
+    let holds = |outer: [u32; 4], inner: [u32; 4]| {
+        (0..2).all(|at| outer[at] <= inner[at] + 1 && outer[at + 2] + 1 >= inner[at + 2])
+    };
+    assert!(mesh[2] - mesh[0] > 20 && mesh[3] - mesh[1] > 20, "{mesh:?}");
+    assert!(holds(cells, mesh) && !holds(mesh, cells), "{cells:?} around {mesh:?}");
+    assert!(holds(used, cells) && !holds(cells, used), "{used:?} around {cells:?}");
+}
+
+/// What clusters hold over a floor somewhere in the world.
+fn lines_at(away: DVec3) -> RgbImage {
+    let directory = tempfile::tempdir().unwrap();
+    let path = |name: &str| directory.path().join(name);
+    let at = |x: f64, y: f64, z: f64| (away + DVec3::new(x, y, z)).to_array();
+    let floor = [[-9.0, 0.0, 3.0], [9.0, 0.0, 3.0], [9.0, 0.0, -15.0], [-9.0, 0.0, -15.0]];
+    write_quads(&path("s.gltf"), &[floor], away.to_array(), &[]);
+    let [x, y, z] = at(0.0, 1.0, 2.0);
+    let rain_box = [at(-5.0, 0.0, -12.0), at(5.0, 4.0, -2.0)];
+    let recording = recording([0.125, 32.0], [x, y, z, 0.0, 0.0, 0.0, 1.0, 1.3], rain_box, &[]);
+    std::fs::write(path("r.json"), recording.to_string()).unwrap();
+    let config = Config {
+        scene: path("s.gltf").to_str().unwrap().into(),
+        lights: vec![Lighting { count: 6, intensity: 2.0, cutoff: 0.5, r0: 0.01 }],
+        frames: FrameRange { first: 0, end: Some(1), step: 1 },
+        ..config(path("r.json").to_str().unwrap(), "raster-24-12-32-e")
+    };
+    let placed = Placed::new(at(9.0, 7.0, 6.0), at(0.0, 0.0, -7.0), None).unwrap();
+    let items = [Item::UsedClusters, Item::LightMesh, Item::Frusta, Item::NoScene];
+    let inputs = Inputs::load(&config).unwrap();
+    seen_from(&config, &inputs, Viewpoint::Placed(placed), &items).image
+}
+
+#[test]
+fn lines_lie_about_their_frame_wherever_it_is() {
+    let [home, away] = [DVec3::ZERO, DVec3::new(4096.0, 0.0, -8192.0)].map(lines_at);
+    let differ = home.pixels().zip(away.pixels()).filter(|(a, b)| a != b).count();
+    let drawn = home.pixels().filter(|pixel| *pixel != home.get_pixel(0, 0)).count();
+    assert!(drawn > 500 && differ * 20 < drawn, "{differ} of {drawn} pixels differ");
+}
+
+#[test]
 fn what_cannot_be_shown_is_refused_before_the_device_is_asked() {
     let config = config("bistro", "all-lights");
     let inputs = Inputs::load(&config).unwrap();
     let runs = planned_runs(&config);
     let refused = |view, items: &[Item]| {
-        let show = Show::from_items(items).unwrap();
+        let show = Show::from_items(items, None).unwrap();
         render(&inputs, &runs[0], Viewpoint::Named(view), &show).err().map(|error| error.to_string()).unwrap()
     };
     assert!(refused(None, &[Item::Clusters]).contains("all-lights has no clusters"));
     assert!(refused(Some("left"), &[Item::Frusta]).contains("birdseye"));
+    assert!(refused(None, &[Item::UsedClusters]).contains("all-lights has no clusters"));
+    assert!(refused(None, &[Item::LightMesh]).contains("all-lights rasterises no meshes"));
 }
 
 #[test]

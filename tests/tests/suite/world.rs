@@ -135,7 +135,7 @@ fn an_onlooker_sees_a_group_wherever_there_is_something() {
         let config =
             Config { methods: methods(&[name]), frames, validate: true, ..config("street", "bistro") };
         let inputs = Inputs::load(&config).unwrap();
-        let show = Show::from_items(&[Item::LightCount, Item::Frusta, Item::Missing]).unwrap();
+        let show = Show::from_items(&[Item::LightCount, Item::Frusta, Item::Missing], None).unwrap();
         for view in [None, Some("birdseye")] {
             let run = &planned_runs(&config)[0];
             let seen = still::render(&inputs, run, Viewpoint::Named(view), &show).unwrap().pixels;

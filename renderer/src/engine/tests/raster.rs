@@ -36,10 +36,7 @@ type Shell = Vec<Option<[u32; 2]>>;
 fn level_of(detail: MeshDetail, frame: &MeshFrame, grid: &GridData) -> SphereLevel {
     let [radius, distance] =
         [frame.x, frame.origin].map(|vector| DVec3::from(vector.map(f64::from)).length());
-    match detail {
-        MeshDetail::Level(level) => level,
-        MeshDetail::Auto(part) => SphereLevel::of_detail(radius, distance, part * f64::from(grid.cell[0])),
-    }
+    detail.level(radius, distance, grid.cell[0].into())
 }
 
 fn kind_of(detail: MeshDetail, frame: &MeshFrame, grid: &GridData) -> MeshKind {
