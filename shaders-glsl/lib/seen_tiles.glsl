@@ -37,3 +37,14 @@ TileRange joined_tiles(TileRange a, TileRange b)
 {
     return TileRange(min(a.first, b.first), max(a.end, b.end));
 }
+
+const TileRange NO_TILES = TileRange(uvec2(0u), uvec2(0u));
+
+// The tiles in which a triangle may be seen; none behind the eye.
+TileRange tiles_of_triangle(Triangle triangle)
+{
+    if (is_behind_eye(triangle))
+        return NO_TILES;
+    TileRange of_two = joined_tiles(tiles_of(triangle.corners[0]), tiles_of(triangle.corners[1]));
+    return joined_tiles(of_two, tiles_of(triangle.corners[2]));
+}

@@ -96,8 +96,7 @@ vec4 place_of_vertex(Triangle triangle, uint corner)
     }
     if (is_ahead && can_grow(corners))
         return place_in_tiles(grown(corners, corner));
-    TileRange tiles = joined_tiles(tiles_of(triangle.corners[0]), joined_tiles(tiles_of(triangle.corners[1]), tiles_of(triangle.corners[2])));
-    return place_in_tiles(around(tiles, corner));
+    return place_in_tiles(around(tiles_of_triangle(triangle), corner));
 }
 
 #endif
