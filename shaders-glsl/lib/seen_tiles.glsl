@@ -23,13 +23,22 @@ TileRange tiles_of(vec3 point)
     return TileRange(uvec2(first), uvec2(end));
 }
 
-// Whether a triangle lies so far behind the eye that no tile's sides have any of it between them, whatever rounding takes.
-bool is_behind_eye(Triangle triangle)
+float least_of(vec4 numbers)
+{
+    return min(min(numbers.x, numbers.y), min(numbers.z, numbers.w));
+}
+
+// Whether a triangle lies behind the eye, or beyond one side of the screen, by more than what rounding may have any tile find of it.
+bool is_unseen(Triangle triangle)
 {
     vec3 a = triangle.corners[0], b = triangle.corners[1], c = triangle.corners[2];
-    vec2 widest = max(abs(grid.origin.xy), abs(grid.origin.xy + grid.cell.xy * vec2(grid.dimensions.xy)));
-    float size = max(max(size_of(a), size_of(b)), size_of(c)) * (1.0 + max(widest.x, widest.y));
-    return min(min(a.z, b.z), c.z) * min(grid.cell.x, grid.cell.y) > 8.0 * SHELL_ROUNDING * size;
+    Tile screen = Tile(grid.origin.xy, grid.origin.xy + grid.cell.xy * vec2(grid.dimensions.xy));
+    vec4 nearest = max(max(tile_distances(a, screen), tile_distances(b, screen)), tile_distances(c, screen));
+    float size = max(max(size_in_tile(a, screen), size_in_tile(b, screen)), size_in_tile(c, screen));
+    float slack = 8.0 * SHELL_ROUNDING * size;
+    bool is_behind = min(min(a.z, b.z), c.z) * min(grid.cell.x, grid.cell.y) > slack;
+    // Sides of tiles tell what lies behind the eye from what lies before it the worse, the more of them there are.
+    return is_behind || least_of(nearest) < -slack * float(max(grid.dimensions.x, grid.dimensions.y));
 }
 
 // The tiles of both, and those between.
@@ -40,10 +49,10 @@ TileRange joined_tiles(TileRange a, TileRange b)
 
 const TileRange NO_TILES = TileRange(uvec2(0u), uvec2(0u));
 
-// The tiles in which a triangle may be seen; none behind the eye.
+// The tiles in which a triangle may be seen.
 TileRange tiles_of_triangle(Triangle triangle)
 {
-    if (is_behind_eye(triangle))
+    if (is_unseen(triangle))
         return NO_TILES;
     TileRange of_two = joined_tiles(tiles_of(triangle.corners[0]), tiles_of(triangle.corners[1]));
     return joined_tiles(of_two, tiles_of(triangle.corners[2]));

@@ -114,5 +114,5 @@ void main()
 #if LAYERS
     gl_Layer = int(light - push.step);
 #endif
-    gl_Position = has_mesh(frame) && !is_behind_eye(triangle) ? place_of_vertex(triangle, vertex % 3u) : NOWHERE;
+    gl_Position = has_mesh(frame) && !is_unseen(triangle) ? place_of_vertex(triangle, vertex % 3u) : NOWHERE;
 }
