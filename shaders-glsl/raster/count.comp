@@ -21,6 +21,6 @@ void main()
 #if !WRITE_LISTS
         count(COUNTER_INTERSECTION_TESTS, 1u);
 #endif
-        fill_range(at, range_in_tile(at), light);
+        fill_range(at.y * grid.dimensions.x + at.x, range_in_tile(at), light);
     }
 }

@@ -19,7 +19,6 @@ void main()
 #if !WRITE_LISTS
         count(COUNTER_INTERSECTION_TESTS, 1u);
 #endif
-        uvec2 at = uvec2(tile % grid.dimensions.x, tile / grid.dimensions.x);
-        fill_range(at, shell_ranges[light * tiles + tile], light);
+        fill_range(tile, shell_ranges[light * tiles + tile], light);
     }
 }
