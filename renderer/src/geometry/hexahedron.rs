@@ -59,12 +59,23 @@ impl Hexahedron {
     /// Distance, from the apex, of the nearest of the cell's points that lie within the sector's endless cone, metres; infinite
     /// where there are none. The cell meets the sector where it is no more than the range.
     pub fn least_distance(&self, sector: &SphericalSector) -> f64 {
-        if self.planes.iter().all(|plane| plane.distance(sector.apex) >= 0.0) {
-            return 0.0;
-        }
-        let faces = (0..6).filter_map(|face| self.through_face(face, sector));
-        let edges = self.edges().filter_map(|edge| along_edge(edge, sector));
-        faces.chain(edges).fold(f64::INFINITY, f64::min)
+        if self.holds(sector.apex) { 0.0 } else { self.distances(sector).fold(f64::INFINITY, f64::min) }
+    }
+
+    /// Whether the sector meets the cell.
+    pub fn meets(&self, sector: &SphericalSector) -> bool {
+        self.holds(sector.apex) || self.distances(sector).any(|distance| distance <= sector.range)
+    }
+
+    fn holds(&self, point: DVec3) -> bool {
+        self.planes.iter().all(|plane| plane.distance(point) >= 0.0)
+    }
+
+    /// Distances, from an apex outside the cell, of points within the sector's endless cone, the nearest among them.
+    fn distances(&self, sector: &SphericalSector) -> impl Iterator<Item = f64> {
+        let cone = Cone::of(sector);
+        let edges = self.edges().filter_map(move |edge| along_edge(edge, &cone));
+        edges.chain((0..6).filter_map(|face| self.through_face(face, sector)))
     }
 
     /// Distance of the plane of a face along the cone's most direct ray, where that hits within the face.
@@ -85,7 +96,7 @@ impl Hexahedron {
     /// Signed margin of the exact test, metres: at least 0 where they meet. Its size is how far the sector or the corners may
     /// move before the answer is another, at least.
     pub fn sector_margin(&self, sector: &SphericalSector) -> f64 {
-        let meets = |sector: SphericalSector| self.least_distance(&sector) <= sector.range;
+        let meets = |sector: SphericalSector| self.meets(&sector);
         let answer = meets(*sector);
         let sign = if answer { 1.0 } else { -1.0 };
         // A larger sector holds what is around this one, so that whoever misses it is at least as far away.
@@ -141,10 +152,26 @@ const MARGIN_STEPS: i32 = 30;
 /// Rounding of a sum, in parts of what is summed.
 const ROUNDING: f64 = 1e-12;
 
+/// The endless cone of a sector, with the sine and the cosine of its half angle.
+#[derive(Clone, Copy)]
+struct Cone {
+    apex: DVec3,
+    axis: DVec3,
+    sine: f64,
+    cosine: f64,
+}
+
+impl Cone {
+    fn of(sector: &SphericalSector) -> Self {
+        let (sine, cosine) = sector.half_angle.sin_cos();
+        Self { apex: sector.apex, axis: sector.axis, sine, cosine }
+    }
+}
+
 /// Distance, from the apex, of the nearest point of an edge within the cone.
-fn along_edge([from, to]: [DVec3; 2], sector: &SphericalSector) -> Option<f64> {
-    let (start, step) = (from - sector.apex, to - from);
-    let [low, high] = within_cone(start, step, sector)?;
+fn along_edge([from, to]: [DVec3; 2], cone: &Cone) -> Option<f64> {
+    let (start, step) = (from - cone.apex, to - from);
+    let [low, high] = within_cone(start, step, cone)?;
     let nearest = -start.dot(step) / step.length_squared();
     // Without length, any place is the nearest.
     let nearest = if nearest.is_nan() { low } else { nearest.clamp(low, high) };
@@ -154,11 +181,11 @@ fn along_edge([from, to]: [DVec3; 2], sector: &SphericalSector) -> Option<f64> {
 /// From where to where the points `start` + t `step`, t in 0..=1, lie within the cone, relative to its apex. They are within
 /// where c |across| <= s along, c and s the cosine and sine of the half angle: the ends are among the zeros of
 /// s^2 along^2 - c^2 |across|^2 with along >= 0, for the other zeros are those of the cone behind the apex.
-fn within_cone(start: DVec3, step: DVec3, sector: &SphericalSector) -> Option<[f64; 2]> {
-    let (sine, cosine) = sector.half_angle.sin_cos();
+fn within_cone(start: DVec3, step: DVec3, cone: &Cone) -> Option<[f64; 2]> {
+    let Cone { axis, sine, cosine, .. } = *cone;
     let split = |vector: DVec3| {
-        let along = sector.axis.dot(vector);
-        (along, vector - sector.axis * along)
+        let along = axis.dot(vector);
+        (along, vector - axis * along)
     };
     let ((along, across), (along_step, across_step)) = (split(start), split(step));
     let is_within = |t: f64| cosine * (across + across_step * t).length() <= sine * (along + along_step * t);
@@ -172,7 +199,7 @@ fn within_cone(start: DVec3, step: DVec3, sector: &SphericalSector) -> Option<[f
     let b = ss * along * along_step - cc * across.dot(across_step);
     let c = ss * square(along) - cc * across.length_squared();
     // b^2 - a c, with what is in both left out.
-    let turn = sector.axis.dot(across.cross(across_step));
+    let turn = axis.dot(across.cross(across_step));
     let tilt = across_step * along - across * along_step;
     let discriminant = cc * (ss * tilt.length_squared() - cc * square(turn));
     let root = discriminant.max(0.0).sqrt();

@@ -40,7 +40,11 @@ impl Sector {
         if away <= half || away > half * 3f64.sqrt() {
             return away <= half;
         }
+        let beside = ((self.0.apex - center).abs() - half).max(DVec3::ZERO);
+        if beside.length_squared() > self.0.range * self.0.range {
+            return false;
+        }
         let cube = OrientedBox { center, half_extent: DVec3::splat(half), axes: DVec3::AXES };
-        Hexahedron::of_box(&cube).least_distance(&self.0) <= self.0.range
+        Hexahedron::of_box(&cube).meets(&self.0)
     }
 }

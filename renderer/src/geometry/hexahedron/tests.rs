@@ -47,7 +47,9 @@ fn pairs(count: usize) -> impl Iterator<Item = (Hexahedron, SphericalSector)> {
 }
 
 fn meets((cell, sector): &(Hexahedron, SphericalSector)) -> bool {
-    cell.least_distance(sector) <= sector.range
+    let meets = cell.least_distance(sector) <= sector.range;
+    assert_eq!(cell.meets(sector), meets, "{sector:?} {cell:?}");
+    meets
 }
 
 /// The point of a cell at parts along its sides.
