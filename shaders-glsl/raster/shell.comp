@@ -1,5 +1,5 @@
 // The slices in which each light's mesh lies, tile by tile (Örtegren and Persson section 4.3), without rasterisation: a workgroup takes a
-// light (x) and a part of its tiles (y), and each of its threads all triangles of the mesh with one tile after the other.
+// light (x) and a part of its tiles (y), and each of its threads one tile after the other, with the triangles of the mesh that may be seen there.
 #version 460
 #include "lib/mesh_in_tiles.glsl"
 #include "lib/tile_part.glsl"

@@ -20,7 +20,7 @@ pub enum Conservative {
     Software,
     /// The same, into layers of images.
     SoftwareLayers,
-    /// No rasterisation: compute shaders ask every tile in which a mesh is seen.
+    /// No rasterisation: compute shaders ask every tile in which a mesh is seen, and of its triangles those that are seen there.
     Compute,
 }
 

@@ -300,7 +300,7 @@ settings! {
     /// How raster methods find the tiles that the triangles of meshes may touch: `auto` (by hardware where the device has conservative
     /// rasterisation, else by compute), `hardware`, `software` (triangles that are grown by half a tile are drawn), both also with
     /// `-layers` (slices are left in layers of images, a light each, instead of a buffer), or `compute` (nothing is drawn: every tile
-    /// around a mesh asks all of its triangles). Of several, with commas between, each is a run of every such method.
+    /// around a mesh asks the triangles that may be seen in it). Of several, with commas between, each is a run of every such method.
     conservative: Vec<Conservative> = vec![Conservative::Auto], Run {
         arg(long, value_enum, value_name = "LIST", value_delimiter = ',')
         serde(default, deserialize_with = "de::ways")

@@ -9,8 +9,9 @@
 //! ```
 //!
 //! The triangles of a mesh are drawn over a screen with a pixel a tile, conservatively, by the device or grown by half a tile; or compute
-//! shaders ask all of them in every tile around the mesh. Pixels leave slices in `shell_ranges`, the least of each half, so that no order
-//! matters; or, as in the paper, in the layers of an image, one a light, as many lights at once as the device has layers:
+//! shaders ask, in every tile around the mesh, those that may be seen in it. Pixels leave slices in `shell_ranges`, the least of each
+//! half, so that no order matters; or, as in the paper, in the layers of an image, one a light, as many lights at once as the device
+//! has layers:
 //!
 //! ```text
 //! batch of lights ─shell─> layers ─copied─> shell_texels ─start_shells─> shell_ranges
