@@ -201,7 +201,7 @@ impl MeshFrame {
     /// ring lies 1/cos(a - b) ranges up the side and the tip 1/cos b up the axis, so that the volume goes with
     /// 1/(cos^2(a - b) cos b): least where 2 tan(a - b) = tan b. The paper's cap touches at the rim (b = a), which has no end for wide
     /// spots.
-    fn of_sector(sector: &SphericalSector) -> Self {
+    pub fn of_sector(sector: &SphericalSector) -> Self {
         let SphericalSector { apex, axis, range, half_angle } = *sector;
         let (sine, cosine) = half_angle.sin_cos();
         let touch = (4.0 * sine).atan2(3.0 * cosine + (9.0 * cosine * cosine + 8.0 * sine * sine).sqrt());

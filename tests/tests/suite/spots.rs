@@ -1,6 +1,6 @@
 //! Spot lights, as users meet them: by every method the pictures of all lights, from rain, from a file, from a scene.
 
-use manylight::assign::Marking;
+use manylight::assign::{Conservative, Marking};
 use manylight::config::{Assign, Config, FrameRange};
 use manylight::lights::Lighting;
 use manylight::shading::ShadingPipeline;
@@ -50,6 +50,17 @@ fn every_way_of_assignment_shades_spots_in_both_eyes_with_four_samples() {
     let assign = vec![Assign::Brute, Assign::Hierarchy, Assign::Scatter];
     let frames = FrameRange { first: 340, end: Some(341), step: 1 };
     let runs = run(Config { methods: methods(&names), assign, frames, ..config("bistro-vive", 4, 1.0) });
+    assert_equal_the_truth(&runs, Marking::Depth);
+}
+
+#[test]
+fn meshes_of_any_detail_and_way_of_drawing_them_shade_spots_among_points() {
+    let mesh_detail = ["12", "auto-0.25"].map(|detail| detail.parse().unwrap()).to_vec();
+    let conservative = vec![Conservative::Software, Conservative::SoftwareLayers];
+    let frames = FrameRange { first: 340, end: Some(341), step: 1 };
+    let methods = methods(&["all-lights", "raster-16-9-24-e"]);
+    let runs = run(Config { methods, mesh_detail, conservative, frames, ..config("bistro", 1, 0.5) });
+    assert_eq!(runs.len(), 1 + 2 * 2);
     assert_equal_the_truth(&runs, Marking::Depth);
 }
 

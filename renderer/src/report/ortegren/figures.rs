@@ -1,6 +1,7 @@
-//! The paper's figures that are numbers: slice laws (KF1), times (KF5 to KF8), memory (KF9), nodes (KF10); and lights a pixel as pictures
-//! (KF13 to KF15, KF18).
+//! The paper's figures that are numbers: slice laws (KF1), times (KF5 to KF8), memory (KF9), nodes (KF10); clusters (KF11, KF16, KF17, in
+//! [`cells`]) and lights a pixel (KF13 to KF15, KF18) as pictures.
 
+use super::cells;
 use super::evaluation::{Case, Evaluation, MEMORY, PARTS};
 use crate::Result;
 use crate::geometry::{Frustum, SliceLaw, Slices};
@@ -31,7 +32,9 @@ pub fn all(set: &ResultSet) -> Result<Vec<Figure>> {
     all.extend(times(&evaluations));
     all.extend(memory(&evaluations));
     all.extend(nodes(&evaluations));
+    all.push(cells::spot()?);
     all.extend(against_tiles(set)?);
+    all.extend(cells::near_and_far(&evaluations)?);
     all.extend(lights_a_pixel(&evaluations)?);
     Ok(all)
 }

@@ -9,6 +9,7 @@
 //!
 //! Its times are of a GeForce GTX 970; ratios compare, milliseconds do not.
 
+mod cells;
 mod claims;
 mod evaluation;
 mod figures;
