@@ -62,7 +62,7 @@ pub use lists::{FoundLists, cap_list, read_masks, sort_lists};
 pub use mark::{DepthImage, Marks, mark};
 pub use scan::scan;
 pub use scatter::{ClusterGroup, scatter, scatter_groups};
-pub use shell::{ShellGrid, SliceRange, ViewMesh, placed, shell, shell_of_tile};
+pub use shell::{ShellGrid, SliceRange, ViewMesh, placed, placed_shell, shell, shell_grid, shell_of_tile};
 pub use sort_tiles::{TileClusters, sort_tiles};
 
 use crate::geometry::Grid;

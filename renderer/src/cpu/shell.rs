@@ -10,6 +10,7 @@
 //! in any order, whether it faces the eye or not. Unlike other twins this one is in single precision, step for step as
 //! `lib/shell.glsl` has them: the device gets the same bits.
 
+use crate::geometry::{ClusterSpace, Grid, LightMesh};
 use crate::gpu_interface::{GridData, MeshFrame};
 use glam::{Vec2, Vec3, Vec4};
 
@@ -148,6 +149,27 @@ impl ViewMesh<'_> {
     fn eye_is_inside(&self) -> bool {
         self.triangles.iter().all(|triangle| eye_is_behind(&self.corners(triangle)))
     }
+}
+
+/// A perspective grid as the device has it, as far as shells ask it, and the depths between its slices, metres; `None` of boxes.
+pub fn shell_grid(grid: &Grid) -> Option<(GridData, Vec<f32>)> {
+    let ClusterSpace::Perspective { frustum, .. } = grid.space else { return None };
+    let [columns, rows, _] = grid.dimensions.map(f64::from);
+    let mut planes = vec![];
+    grid.slice_planes(&mut planes);
+    let data = GridData {
+        dimensions: grid.dimensions,
+        origin: [frustum.x0 as f32, frustum.y0 as f32, 0.0],
+        cell: [(frustum.size().x / columns) as f32, (frustum.size().y / rows) as f32, 0.0],
+        ..Default::default()
+    };
+    Some((data, planes))
+}
+
+/// The slices of every tile, tile by tile, in which the mesh of a template lies where a frame places it.
+pub fn placed_shell(grid: &ShellGrid, mesh: &LightMesh, frame: &MeshFrame) -> Vec<SliceRange> {
+    let vertices: Vec<Vec3> = mesh.vertices.iter().map(|vertex| placed(frame, vertex.as_vec4())).collect();
+    shell(grid, &ViewMesh { vertices: &vertices, triangles: &mesh.triangles })
 }
 
 /// The slices of every tile, tile by tile, in which a light's mesh lies.

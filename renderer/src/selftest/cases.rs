@@ -2,9 +2,9 @@
 
 use crate::Result;
 use crate::geometry::views::Pose;
-use crate::geometry::{ClusterSpace, Frustum, Grid};
+use crate::geometry::{ClusterSpace, Frustum, Grid, SliceLaw, Slices};
 use crate::lights::rain::{Rain, RainParameters};
-use crate::lights::{Light, Lighting};
+use crate::lights::{Light, Lighting, Spot};
 use crate::methods::{Method, Sharing, Space};
 use glam::{DQuat, DVec3};
 
@@ -33,6 +33,29 @@ pub fn frustum_grid(dimensions: [u32; 3]) -> Grid {
     let frustum = Frustum { x0: -1.2, x1: 1.0, y0: -0.7, y1: 0.9, z0: -100.0, z1: -0.4 };
     let ratio = (100.0f64 / 0.4).powf(1.0 / f64::from(dimensions[2])) - 1.0;
     Grid { pose: pose(), space: ClusterSpace::geometric(frustum, ratio), dimensions }
+}
+
+/// The same pieces between the slices of a law.
+pub fn sliced(law: SliceLaw) -> Grid {
+    let mut grid = frustum_grid([13, 9, 21]);
+    if let ClusterSpace::Perspective { frustum, slices } = &mut grid.space {
+        *slices = Slices::new(law, frustum, 250f64.powf(1.0 / 21.0) - 1.0, 21.0);
+    }
+    grid
+}
+
+/// Points, and twice as many spots from narrow to wide.
+pub fn points_and_spots(count: u32) -> Vec<Light> {
+    let mut random = noise(77);
+    let mut unit = move || -> f32 { (random() % 65_536) as f32 / 65_536.0 };
+    let lights = random_lights(count, 21, 14.0, |u| 1.0 + 7.0 * u);
+    let with_cone = |(number, light): (usize, Light)| {
+        let direction = [0; 3].map(|_| 2.0 * unit() - 1.0);
+        let outer: f32 = 2.0 + 88.0 * unit().powi(2);
+        let spot = Spot::new(direction, 0.0, outer.to_radians());
+        light.shining((number % 3 != 0).then_some(spot))
+    };
+    lights.into_iter().enumerate().map(with_cone).collect()
 }
 
 /// Falling lights, all of one radius.

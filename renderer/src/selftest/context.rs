@@ -2,6 +2,7 @@
 
 use super::frames::Frames;
 use crate::Result;
+use crate::assign::Conservative;
 use crate::config::{Assign, Config, Test};
 use crate::engine::workbench::{Case, Workbench};
 use crate::inputs::Inputs;
@@ -69,8 +70,16 @@ impl Context {
 
     /// A case on the device, whose lists are built and tested so.
     pub(super) fn bench(&mut self, (assign, test): (Assign, Test), case: Case) -> Result<&mut Workbench> {
-        let config =
-            Config { resolution: RESOLUTION, assign: vec![assign], test: vec![test], ..self.config.clone() };
+        self.bench_with(Config { assign: vec![assign], test: vec![test], ..self.config.clone() }, case)
+    }
+
+    /// A case on the device, whose meshes are rasterised so.
+    pub(super) fn rasterising(&mut self, way: Conservative, case: Case) -> Result<&mut Workbench> {
+        self.bench_with(Config { conservative: vec![way], ..self.config.clone() }, case)
+    }
+
+    fn bench_with(&mut self, config: Config, case: Case) -> Result<&mut Workbench> {
+        let config = Config { resolution: RESOLUTION, ..config };
         let made = match self.bench.take() {
             Some(bench) => bench.replace(&config, case)?,
             None => Workbench::new(&config, &self.inputs.scene, case, self.faults)?,

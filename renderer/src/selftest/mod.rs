@@ -19,6 +19,7 @@ mod pictures;
 mod report;
 mod samples;
 mod scan;
+mod shells;
 mod sort;
 mod timestamps;
 mod touching;
@@ -52,7 +53,7 @@ pub struct Check {
 }
 
 /// All checks, in the order in which they run.
-pub static CHECKS: [Check; 13] = [
+pub static CHECKS: [Check; 14] = [
     Check {
         name: "timestamps",
         means: "a stage's time holds other stages' work, or not all of its own: times of stages are void",
@@ -77,6 +78,11 @@ pub static CHECKS: [Check; 13] = [
         name: "lists",
         means: "light lists are not what the method defines: counts, times and pictures of these ways are void",
         run: lists::check,
+    },
+    Check {
+        name: "shells",
+        means: "meshes around lights are rasterised to other clusters: what raster methods count, time and shade in that way is void",
+        run: shells::check,
     },
     Check {
         name: "touching",

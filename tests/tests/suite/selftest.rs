@@ -39,10 +39,10 @@ fn a_device_on_which_all_is_well_is_fit_and_every_check_says_what_it_measured() 
     assert_eq!(output.status.code(), Some(0), "{text}");
     assert_eq!(
         text.lines().filter(|line| line.starts_with("ok ") || line.starts_with("note ")).count(),
-        13,
+        14,
         "{text}"
     );
-    assert!(text.contains("found nothing wrong, 13 checks in "), "{text}");
+    assert!(text.contains("found nothing wrong, 14 checks in "), "{text}");
 }
 
 #[test]
@@ -60,6 +60,14 @@ fn a_list_that_is_cut_is_not_that_of_the_twin() {
     let found = faults(&with_fault(("assign/read_masks.comp", end, &cut), &["scan", "lists"]));
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(found[0].0 == "lists" && found[0].1.starts_with("brute force of "), "{found:?}");
+}
+
+#[test]
+fn triangles_that_are_not_grown_miss_tiles() {
+    let fault = ("raster/shell.vert", "GROWTH = 0.5 + 1.0 / 16.0", "GROWTH = 0.25");
+    let found = faults(&with_fault(fault, &["lists", "shells"]));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].0 == "shells" && found[0].1.starts_with("software: "), "{found:?}");
 }
 
 #[test]

@@ -4,21 +4,13 @@ use super::bounds::{method, random_bounds, with_clusters, words_of};
 use super::*;
 use crate::assign::Bounds;
 use crate::config::{Assign, Test};
-use crate::geometry::{ClusterSpace, SliceLaw, Slices, SphereTest};
+use crate::geometry::{ClusterSpace, SliceLaw, SphereTest};
 use crate::gpu_interface::ClusterBox;
 use crate::passes::build_boxes;
+use crate::selftest::cases::sliced;
 
 /// What f32 may make of corners, in parts of the grid's reach: far less than what radii grow by.
 const CLOSE: f64 = 4e-7;
-
-/// A grid by a slice law.
-pub fn sliced(law: SliceLaw) -> Grid {
-    let mut grid = frustum_grid([13, 9, 21]);
-    let ClusterSpace::Perspective { frustum, .. } = grid.space else { panic!("a frustum") };
-    let slices = Slices::new(law, &frustum, 250f64.powf(1.0 / 21.0) - 1.0, 21.0);
-    grid.space = ClusterSpace::Perspective { frustum, slices };
-    grid
-}
 
 pub fn by_law(law: SliceLaw) -> Config {
     Config { slices: vec![law.into()], ..config() }

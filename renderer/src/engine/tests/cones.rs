@@ -3,22 +3,7 @@
 use super::*;
 use crate::config::{Assign, Test};
 use crate::geometry::{ConeTest, VolumeTest};
-use crate::lights::Spot;
-use crate::selftest::cases::noise;
-
-/// Lights of which two in three are spots, narrow and wide, in all directions.
-pub(super) fn mixed(count: u32) -> Vec<Light> {
-    let mut random = noise(77);
-    let mut unit = move || -> f32 { (random() % 65_536) as f32 / 65_536.0 };
-    let lights = random_lights(count, 21, 14.0, |u| 1.0 + 7.0 * u);
-    let with_cone = |(number, light): (usize, Light)| {
-        let direction = [0; 3].map(|_| 2.0 * unit() - 1.0);
-        let outer: f32 = 2.0 + 88.0 * unit().powi(2);
-        let spot = Spot::new(direction, 0.0, outer.to_radians());
-        light.shining((number % 3 != 0).then_some(spot))
-    };
-    lights.into_iter().enumerate().map(with_cone).collect()
-}
+use crate::selftest::cases::points_and_spots;
 
 /// A grid with about half of its clusters visible.
 struct Case {
@@ -51,7 +36,8 @@ impl Case {
 }
 
 fn cases() -> [Case; 2] {
-    [(PERSP, frustum_grid([7, 6, 13])), (ORTHO, box_grid([11, 9, 13]))].map(|of| Case::new(of, mixed(900)))
+    [(PERSP, frustum_grid([7, 6, 13])), (ORTHO, box_grid([11, 9, 13]))]
+        .map(|of| Case::new(of, points_and_spots(900)))
 }
 
 #[test]

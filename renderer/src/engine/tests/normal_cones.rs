@@ -2,7 +2,6 @@
 //! normals of what is seen.
 
 use super::bounds::{measure, measuring, method, random_bounds, with_clusters, with_sides, words_of};
-use super::cones::mixed;
 use super::*;
 use crate::assign::ListStore;
 use crate::config::{Assign, Test};
@@ -12,6 +11,7 @@ use crate::gpu_interface::COUNTER_COUNT;
 use crate::measure::DeviceCounts;
 use crate::scene::{Bounds, Instance, Material, Primitive, Vertex};
 use crate::selftest::cases::noise;
+use crate::selftest::cases::points_and_spots;
 use glam::{DMat4, Vec3};
 
 /// Some cones of each cluster: of most few, of some none or all.
@@ -43,7 +43,7 @@ fn lists_without_lights_behind_are_those_of_their_twin_by_all_ways() {
     ];
     for (method, grid, test, divided) in cases {
         let lights = match divided {
-            "2" => mixed(1501),
+            "2" => points_and_spots(1501),
             _ => random_lights(1501, 4, 40.0, |u| 0.02 * 3000f32.powf(u * u)),
         };
         let (test, divided): (Test, NormalCones) = (test.parse().unwrap(), divided.parse().unwrap());

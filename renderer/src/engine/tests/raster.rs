@@ -1,8 +1,7 @@
 //! Meshes around lights on the device: lists equal to their twin's to the light, and none lost that a light reaches.
 
 use super::bounds::with_clusters;
-use super::boxes::{by_law, sliced};
-use super::cones::mixed;
+use super::boxes::by_law;
 use super::*;
 use crate::assign::Conservative::{self, Hardware, HardwareLayers, Software, SoftwareLayers};
 use crate::assign::{Links, ListStore, MeshDetail, NODES_PER_CLUSTER};
@@ -12,21 +11,12 @@ use crate::geometry::{ClusterSpace, LightMesh, MeshKind, SliceLaw, Slices, Spher
 use crate::gpu_interface::{GridData, MeshFrame};
 use crate::lights::Spot;
 use crate::passes::raster;
+use crate::selftest::cases::points_and_spots;
+use crate::selftest::cases::sliced;
 use crate::vk::{Context, DeviceOptions};
 
-/// What a device has of a grid, as far as shells ask it.
 fn data_of(grid: &Grid) -> (GridData, Vec<f32>) {
-    let ClusterSpace::Perspective { frustum, .. } = grid.space else { panic!("a frustum") };
-    let [columns, rows, _] = grid.dimensions.map(f64::from);
-    let mut planes = vec![];
-    grid.slice_planes(&mut planes);
-    let data = GridData {
-        dimensions: grid.dimensions,
-        origin: [frustum.x0 as f32, frustum.y0 as f32, 0.0],
-        cell: [(frustum.size().x / columns) as f32, (frustum.size().y / rows) as f32, 0.0],
-        ..Default::default()
-    };
-    (data, planes)
+    cpu::shell_grid(grid).unwrap()
 }
 
 /// The slices of each tile in which a light's mesh lies.
@@ -47,9 +37,7 @@ fn kind_of(detail: MeshDetail, frame: &MeshFrame, grid: &GridData) -> MeshKind {
 fn shell_of(grid: &Grid, detail: MeshDetail, frame: &MeshFrame) -> Shell {
     let (data, planes) = data_of(grid);
     let mesh = LightMesh::new(kind_of(detail, frame, &data));
-    let vertices: Vec<_> = mesh.vertices.iter().map(|vertex| cpu::placed(frame, vertex.as_vec4())).collect();
-    let mesh = cpu::ViewMesh { vertices: &vertices, triangles: &mesh.triangles };
-    let shell = cpu::shell(&cpu::ShellGrid { grid: &data, planes: &planes }, &mesh);
+    let shell = cpu::placed_shell(&cpu::ShellGrid { grid: &data, planes: &planes }, &mesh, frame);
     shell.into_iter().map(|range| range.slices(grid.dimensions[2])).collect()
 }
 
@@ -100,7 +88,7 @@ fn assert_none_is_lost(lists: &Lists, twin: &cpu::LightLists) {
 #[test]
 fn lists_are_those_of_the_shells_on_the_host() {
     for (name, law) in METHODS {
-        let (grid, lights) = (sliced(law), mixed(700));
+        let (grid, lights) = (sliced(law), points_and_spots(700));
         let (lists, clusters, frames) = lists((name, law), PAPERS, &lights);
         let shells: Vec<_> = frames.iter().map(|frame| shell_of(&grid, PAPERS, frame)).collect();
         assert_lists_are_of_shells(&grid, (&lists, &clusters), &shells);
@@ -111,7 +99,7 @@ fn lists_are_those_of_the_shells_on_the_host() {
 /// Finer meshes take fewer lights in vain.
 #[test]
 fn lists_are_those_of_meshes_of_their_level_which_take_fewer_the_finer_they_are() {
-    let (grid, lights) = (sliced(METHODS[0].1), mixed(70));
+    let (grid, lights) = (sliced(METHODS[0].1), points_and_spots(70));
     let found = SphereLevel::ALL.map(|level| {
         let detail = MeshDetail::Level(level);
         let (lists, clusters, frames) = lists(METHODS[0], detail, &lights);
@@ -128,7 +116,7 @@ fn lists_are_those_of_meshes_of_their_level_which_take_fewer_the_finer_they_are(
 #[test]
 fn each_light_has_the_level_that_is_fine_enough_from_the_eye() {
     for (name, law) in [METHODS[0], METHODS[2]] {
-        let (grid, lights) = (sliced(law), mixed(120));
+        let (grid, lights) = (sliced(law), points_and_spots(120));
         let detail = MeshDetail::Auto(0.25);
         let (lists, clusters, frames) = lists((name, law), detail, &lights);
         let shells: Vec<_> = frames.iter().map(|frame| shell_of(&grid, detail, frame)).collect();
@@ -144,7 +132,7 @@ fn each_light_has_the_level_that_is_fine_enough_from_the_eye() {
 #[test]
 fn no_cluster_that_a_light_reaches_is_left_out_and_few_others_are_taken() {
     for (name, law) in METHODS {
-        let (grid, lights) = (sliced(law), mixed(700));
+        let (grid, lights) = (sliced(law), points_and_spots(700));
         let (lists, clusters, _) = lists((name, law), PAPERS, &lights);
         let exact: VolumeTest = "exact+cone".parse().unwrap();
         let twin = cpu::assign(&grid, &clusters, &lights, exact, 1e-3);
@@ -176,7 +164,7 @@ fn linked(name: &str) -> Links {
 
 #[test]
 fn linked_lists_hold_the_lights_of_offsets_spots_first_and_in_order_where_they_are_sorted() {
-    let lights = mixed(700);
+    let lights = points_and_spots(700);
     let is_point = |light: &u32| lights[*light as usize].spot.is_none();
     for name in ["raster-13-9-21-e", "raster-count-13-9-21-e"] {
         let case = (name, sliced(METHODS[0].1));
@@ -226,7 +214,7 @@ fn lights_that_are_cut(pose: &Pose) -> Vec<Light> {
         let direction = (pose.rotation * DVec3::from_array(direction)).as_vec3().to_array();
         point(local, r1).shining(Some(Spot::new(direction, 0.0, degrees.to_radians())))
     };
-    let mut lights = mixed(200);
+    let mut lights = points_and_spots(200);
     for z in [-200.0, -60.0, -3.0, -0.3, 0.0, 0.3, 5.0] {
         lights.extend([0.2, 4.0, 300.0].map(|r1| point([0.1, -0.2, z], r1)));
         for degrees in [0.5, 45.0, 85.0] {

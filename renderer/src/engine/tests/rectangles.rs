@@ -1,7 +1,7 @@
 //! Assignment by rectangles on the device: each step equal to its twin, and the lists those of brute force by the same test.
 
 use super::bounds::{random_bounds, with_clusters, words_of};
-use super::boxes::{by_law, sliced};
+use super::boxes::by_law;
 use super::*;
 use crate::assign::Bounds;
 use crate::config::Assign;
@@ -9,6 +9,7 @@ use crate::cpu::{CellRange, CulledLights, Visible};
 use crate::geometry::{SliceLaw, SphereTest};
 use crate::gpu_interface::LightRectangle;
 use crate::passes::{Lights, VisibleClusters};
+use crate::selftest::cases::sliced;
 
 /// How small a margin is too close to call, cells and metres.
 const EPSILON: f64 = 2e-3;

@@ -7,12 +7,12 @@
 //! ```
 
 use super::evaluation::{Case, Evaluation};
-use crate::cpu::{ShellGrid, ViewMesh, placed, shell};
+use crate::cpu::{ShellGrid, placed_shell, shell_grid};
 use crate::geometry::views::{Pose, View};
 use crate::geometry::{
     ClusterSpace, DisplacedVolume, Frustum, Grid, LightMesh, MeshFrame, MeshKind, SphericalSector,
 };
-use crate::gpu_interface::{self, GridData};
+use crate::gpu_interface;
 use crate::methods::Method;
 use crate::methods::grid::Division;
 use crate::report::chart::{Chart, Plot};
@@ -22,7 +22,7 @@ use crate::report::results::{Run, Setting};
 use crate::report::way::Way;
 use crate::{Error, Result, recording};
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read};
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -144,30 +144,20 @@ fn planned(method: Method, views: &[View], resolution: [u32; 2]) -> Result<Grid>
 fn frustum_of(grid: &Grid) -> Result<Frustum> {
     match grid.space {
         ClusterSpace::Perspective { frustum, .. } => Ok(frustum),
-        ClusterSpace::Orthographic { .. } => Err(Error::Internal("a grid of boxes has no frustum".into())),
+        ClusterSpace::Orthographic { .. } => Err(no_frustum()),
     }
+}
+
+fn no_frustum() -> Error {
+    Error::Internal("a grid of boxes has no frustum".into())
 }
 
 /// The clusters that a mesh meets, by the twin of the device's shells, in the grid's own space.
 fn clusters_of(grid: &Grid, mesh: &LightMesh, frame: &MeshFrame) -> Result<BTreeSet<u32>> {
-    let frustum = frustum_of(grid)?;
     let [columns, rows, slices] = grid.dimensions;
-    let data = GridData {
-        dimensions: grid.dimensions,
-        origin: [frustum.x0 as f32, frustum.y0 as f32, 0.0],
-        cell: [
-            (frustum.size().x / f64::from(columns)) as f32,
-            (frustum.size().y / f64::from(rows)) as f32,
-            0.0,
-        ],
-        ..GridData::default()
-    };
-    let mut planes = vec![];
-    grid.slice_planes(&mut planes);
+    let (data, planes) = shell_grid(grid).ok_or_else(no_frustum)?;
     let frame = gpu_interface::MeshFrame::from(frame);
-    let vertices: Vec<Vec3> = mesh.vertices.iter().map(|vertex| placed(&frame, vertex.as_vec4())).collect();
-    let mesh = ViewMesh { vertices: &vertices, triangles: &mesh.triangles };
-    let ranges = shell(&ShellGrid { grid: &data, planes: &planes }, &mesh);
+    let ranges = placed_shell(&ShellGrid { grid: &data, planes: &planes }, mesh, &frame);
     let of_tile = |(tile, range): (u32, Option<[u32; 2]>)| {
         let [first, last] = range.unwrap_or([1, 0]);
         (first..=last).map(move |slice| tile + columns * rows * slice)

@@ -7,7 +7,7 @@ use crate::geometry::{
 };
 use crate::gpu_interface::{self, GridData};
 use bytemuck::{Pod, Zeroable};
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3};
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -249,10 +249,8 @@ fn host_shell(
     mesh: &LightMesh,
     frame: &gpu_interface::MeshFrame,
 ) -> Vec<u32> {
-    let vertices: Vec<Vec3> =
-        mesh.vertices.iter().map(|vertex| cpu::placed(frame, vertex.as_vec4())).collect();
-    let mesh = cpu::ViewMesh { vertices: &vertices, triangles: &mesh.triangles };
-    cpu::shell(&cpu::ShellGrid { grid, planes }, &mesh).into_iter().map(cpu::SliceRange::to_word).collect()
+    let shell = cpu::placed_shell(&cpu::ShellGrid { grid, planes }, mesh, frame);
+    shell.into_iter().map(cpu::SliceRange::to_word).collect()
 }
 
 fn device_shell(
