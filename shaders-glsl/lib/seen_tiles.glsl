@@ -23,11 +23,6 @@ TileRange tiles_of(vec3 point)
     return TileRange(uvec2(first), uvec2(end));
 }
 
-float least_of(vec4 numbers)
-{
-    return min(min(numbers.x, numbers.y), min(numbers.z, numbers.w));
-}
-
 // Whether a triangle lies behind the eye, or beyond one side of the screen, by more than what rounding may have any tile find of it.
 bool is_unseen(Triangle triangle)
 {

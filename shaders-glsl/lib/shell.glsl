@@ -62,6 +62,11 @@ float size_in_tile(vec3 point, Tile tile)
     return size;
 }
 
+float least_of(vec4 numbers)
+{
+    return min(min(numbers.x, numbers.y), min(numbers.z, numbers.w));
+}
+
 vec2 with_depth(vec2 found, float depth)
 {
     return vec2(min(found.x, depth), max(found.y, depth));
@@ -120,11 +125,10 @@ vec2 depths_in_tile(Triangle triangle, Tile tile)
     precise float slack = SHELL_ROUNDING * max(max(sizes.x, sizes.y), sizes.z);
     vec2 found = NO_DEPTHS;
     vec4 nearest = max(max(sides[0], sides[1]), sides[2]);
-    if (min(min(nearest.x, nearest.y), min(nearest.z, nearest.w)) < -slack)
+    if (least_of(nearest) < -slack)
         return found;
     for (uint corner = 0u; corner < 3u; ++corner) {
-        vec4 of_corner = sides[corner];
-        if (min(min(of_corner.x, of_corner.y), min(of_corner.z, of_corner.w)) >= -slack)
+        if (least_of(sides[corner]) >= -slack)
             found = with_depth(found, -triangle.corners[corner].z);
     }
     for (uint from = 0u; from < 3u; ++from) {

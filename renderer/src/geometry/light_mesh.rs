@@ -106,6 +106,12 @@ impl LightMesh {
         }
     }
 
+    /// The edges of the closed mesh, each once, by its vertices: one of the two triangles at each has it upwards.
+    pub fn edges(&self) -> impl Iterator<Item = [u16; 2]> {
+        let sides = self.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+        sides.filter(|[from, to]| from < to)
+    }
+
     /// The template of a mesh around the unit sphere. Every triangle lies outside.
     pub fn sphere(level: SphereLevel) -> Self {
         let (mut directions, mut triangles) = icosahedron();

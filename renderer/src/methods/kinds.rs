@@ -58,6 +58,13 @@ const PERSPECTIVE: Kind = Kind {
     make: |_| Method::AllLights,
 };
 
+/// What rows of grids of so many columns, rows and slices begin from.
+const COUNTED: Kind = Kind {
+    sizes: &["COLUMNS", "ROWS", SLICES],
+    groups: Groups::Cells(CellShape::BoxedFrustum),
+    ..PERSPECTIVE
+};
+
 /// Every kind of method. All serve transparent geometry, all views in stereo, and any number of samples (models: where fragments
 /// run for each).
 pub static KINDS: [Kind; 26] = [
@@ -185,16 +192,14 @@ pub static KINDS: [Kind; 26] = [
     },
     Kind {
         name: "ortiz",
-        sizes: &["COLUMNS", "ROWS", SLICES],
         tuned: &[16.0, 9.0, 24.0],
         title: "Ortiz",
         about: "so many square tiles and slices of each view's screen, whatever its pixels, tested as the boxes around them",
-        groups: Groups::Cells(CellShape::BoxedFrustum),
         make: |sizes| {
             let [columns, rows, slices] = [sizes[0], sizes[1], sizes[2]];
             Method::grid(Sharing::Indi, Space::Counted { columns, rows, slices })
         },
-        ..PERSPECTIVE
+        ..COUNTED
     },
     Kind {
         name: "tiled-mm",
@@ -223,70 +228,58 @@ pub static KINDS: [Kind; 26] = [
     Kind {
         name: "raster",
         suffix: "-e",
-        sizes: &["COLUMNS", "ROWS", SLICES],
         tuned: &[24.0, 12.0, 64.0],
         title: "Raster E",
         about: "so many tiles and slices, these geometric behind the first; all clusters that the mesh around a light meets have it",
-        groups: Groups::Cells(CellShape::BoxedFrustum),
         make: |sizes| rasterised((Assigner::Raster, Sharing::Indi), SLICES_E, sizes),
-        ..PERSPECTIVE
+        ..COUNTED
     },
     Kind {
         name: "raster",
         suffix: "-l",
-        sizes: &["COLUMNS", "ROWS", SLICES],
         tuned: &[24.0, 12.0, 128.0],
         title: "Raster L",
         about: "the same, in slices of equal depth",
-        groups: Groups::Cells(CellShape::BoxedFrustum),
         make: |sizes| rasterised((Assigner::Raster, Sharing::Indi), SliceLaw::Linear, sizes),
-        ..PERSPECTIVE
+        ..COUNTED
     },
     Kind {
         name: "encl-raster",
         suffix: "-e",
-        sizes: &["COLUMNS", "ROWS", SLICES],
         tuned: &[24.0, 12.0, 64.0],
         title: "Encl Raster E",
         about: "so many columns, rows and slices of the frustum that encloses all views, with the lights of raster",
         sharing: Sharing::Encl,
-        groups: Groups::Cells(CellShape::BoxedFrustum),
         make: |sizes| rasterised((Assigner::Raster, Sharing::Encl), SLICES_E, sizes),
-        ..PERSPECTIVE
+        ..COUNTED
     },
     Kind {
         name: "encl-raster",
         suffix: "-l",
-        sizes: &["COLUMNS", "ROWS", SLICES],
         tuned: &[24.0, 12.0, 128.0],
         title: "Encl Raster L",
         about: "the same, in slices of equal depth",
         sharing: Sharing::Encl,
-        groups: Groups::Cells(CellShape::BoxedFrustum),
         make: |sizes| rasterised((Assigner::Raster, Sharing::Encl), SliceLaw::Linear, sizes),
-        ..PERSPECTIVE
+        ..COUNTED
     },
     Kind {
         name: "raster-count",
         suffix: "-e",
-        sizes: &["COLUMNS", "ROWS", SLICES],
         tuned: &[24.0, 12.0, 64.0],
         title: "Raster Count E",
         about: "lists of raster, a light at a time: no slices of meshes are kept",
-        groups: Groups::Cells(CellShape::BoxedFrustum),
         make: |sizes| rasterised((Assigner::RasterCount, Sharing::Indi), SLICES_E, sizes),
-        ..PERSPECTIVE
+        ..COUNTED
     },
     Kind {
         name: "raster-count",
         suffix: "-l",
-        sizes: &["COLUMNS", "ROWS", SLICES],
         tuned: &[24.0, 12.0, 128.0],
         title: "Raster Count L",
         about: "the same, in slices of equal depth",
-        groups: Groups::Cells(CellShape::BoxedFrustum),
         make: |sizes| rasterised((Assigner::RasterCount, Sharing::Indi), SliceLaw::Linear, sizes),
-        ..PERSPECTIVE
+        ..COUNTED
     },
     Kind {
         name: "g",

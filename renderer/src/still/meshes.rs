@@ -18,7 +18,7 @@ impl<'a> Meshes<'a> {
     pub fn new(detail: MeshDetail, grids: &'a [Grid]) -> Self {
         let template = |kind| {
             let mesh = LightMesh::new(kind);
-            let edges = edges(&mesh);
+            let edges = mesh.edges().collect();
             (kind, mesh, edges)
         };
         Self { detail, grids, templates: detail.meshes().into_iter().map(template).collect() }
@@ -51,12 +51,6 @@ fn tile_width(grid: &Grid) -> f64 {
         // Boxes have no tiles, and any mesh is fine enough.
         ClusterSpace::Orthographic { .. } => f64::INFINITY,
     }
-}
-
-/// The edges of a closed mesh, each once: one of the two triangles at each has it upwards.
-fn edges(mesh: &LightMesh) -> Vec<[u16; 2]> {
-    let sides = mesh.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-    sides.filter(|[from, to]| from < to).collect()
 }
 
 #[cfg(test)]

@@ -179,11 +179,8 @@ pub fn spot() -> Result<Figure> {
     };
     let (mesh, frame) = (LightMesh::new(MeshKind::Spot), MeshFrame::of_sector(&sector));
     let clusters = clusters_of(&grid, &mesh, &frame)?;
-    let sides = mesh.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-    let edges: Vec<[DVec3; 2]> = sides
-        .filter(|[from, to]| from < to)
-        .map(|edge| edge.map(|end| frame.place(mesh.vertices[usize::from(end)])))
-        .collect();
+    let placed = |end: u16| frame.place(mesh.vertices[usize::from(end)]);
+    let edges: Vec<[DVec3; 2]> = mesh.edges().map(|edge| edge.map(placed)).collect();
     let shown = Shown { grid: &grid, frustum: frustum_of(&grid)?, clusters: &clusters, edges: &edges };
     let views = [
         ("from the side", From::Side, [DVec2::new(4.0, -3.0), DVec2::new(11.0, 2.6)]),
